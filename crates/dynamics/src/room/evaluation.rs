@@ -46,7 +46,7 @@ impl Scored {
             column.component_mul_assign(&root);
         }
         let left = (&cells.power - &expected.power).component_mul(&root);
-        let mut information = slopes.tr_mul(&slopes);
+        let mut information = slopes.transpose() * &slopes;
         let off = unknowns - &beliefs.mean;
         let gradient = slopes.tr_mul(&left) - off.component_mul(&beliefs.precision);
         for at in 0..information.nrows() {

@@ -1,13 +1,15 @@
 //! Unknowns → expected power of each bin of each frame, and its derivatives.
 
-use super::kernel::Kernel;
+use super::kernel::{Kernel, WIDTH};
 use super::parameters::{Arrival, CURVE, Layout, NOISE_KNOTS, PLACE, RoomCurve, SHARES, arrivals};
 use super::spectra::{PLACES, StepSpectra, TurnFrame};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
 /// Differences of the unknowns of curve and place, for derivatives. *Numeric.*
-const DIFFERENCES: [f64; CURVE + PLACE] = [5e-4, 0.01, 1e-3, 0.05, 0.1, 0.1, 0.05];
+const DIFFERENCES: [f64; CURVE + PLACE] = [5e-4, 0.01, 1e-3, 0.05, 0.1, 0.05, 0.1];
+/// Unknowns with differences to both sides: those of the curve itself. *Numeric.*
+const CENTRAL: usize = 3;
 /// When the gain of a line before the step ends and that behind it begins, in time constants from the start. *Decision*: between them the line
 /// crosses many resonances of the room.
 const BEFORE_ENDS: [f64; 2] = [0.0, 1.0];
@@ -107,7 +109,12 @@ impl<'a> Expectation<'a> {
                 moved[at] += by;
                 self.power(&moved)
             };
-            slopes.set_column(at, &((moved(difference) - moved(-difference)) / (2.0 * difference)));
+            let slope = if at < CENTRAL {
+                (moved(difference) - moved(-difference)) / (2.0 * difference)
+            } else {
+                (moved(difference) - &power) / difference
+            };
+            slopes.set_column(at, &slope);
         }
         Expected { power, slopes }
     }
@@ -167,10 +174,13 @@ impl<'a> Expectation<'a> {
                     for seen in &frame.speeds {
                         let place = order * (1.0 + of_mean) * seen.bins_per_order - self.spectra.first_bin as f64;
                         let (first, row) = self.kernel.at(place);
-                        for (bin, value) in (first..).zip(row) {
-                            if bin >= 0 && (bin as usize) < bins {
-                                add(at * bins + bin as usize, power * seen.weight * value, unknown);
-                            }
+                        let weight = power * seen.weight;
+                        if first >= 0 && first as usize + WIDTH <= bins {
+                            let cell = at * bins + first as usize;
+                            row.iter().enumerate().for_each(|(bin, value)| add(cell + bin, weight * value, unknown));
+                        } else {
+                            let inside = (first..).zip(row).filter(|(bin, _)| (0..bins as isize).contains(bin));
+                            inside.for_each(|(bin, value)| add(at * bins + bin as usize, weight * value, unknown));
                         }
                     }
                 }

@@ -8,7 +8,7 @@ use hovertone_signal::statistics::median;
 use nalgebra::DVector;
 
 /// Rounds of scoring. *Numeric.*
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 16;
 /// First damping, and its factor after a step that is kept or not. *Numeric.*
 const DAMPING: f64 = 1e-2;
 const DAMPING_FACTOR: f64 = 5.0;
@@ -22,16 +22,18 @@ const ENDED: f64 = 1e-3;
 const CURVE_STD: [f64; CURVE] = [0.05, 1.0, 0.1, 2.0];
 const POWER_STD: f64 = 3.0;
 const GAIN_STD: f64 = 1.0;
-/// Early reflections, tail and time constant of the tail before anything is heard: logarithms and their standard deviations. *Decision.*
-const PLACE_MEAN: [f64; PLACE] = [-1.0, -1.0, -3.5];
-const PLACE_STD: [f64; PLACE] = [1.5, 1.5, 0.5];
+/// Echoes, time constant of their tail and time of the first one before anything is heard: logarithms and their standard deviations. *Decision.*
+const PLACE_MEAN: [f64; PLACE] = [-1.0, -3.5, -4.5];
+const PLACE_STD: [f64; PLACE] = [2.0, 0.5, 0.5];
 /// Power of the speed with which lines get louder, before anything is heard: dipoles. *Physics.*
-const LOUDER: f64 = 4.0;
+const LOUDER: f64 = 5.0;
 
 /// A logarithm that is believed of a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceValue {
+    /// The logarithm.
     pub value: f64,
+    /// Its variance.
     pub variance: f64,
 }
 
@@ -96,7 +98,19 @@ pub fn step_in_room(
     let mut cost = cells.cost(&expectation.power(&unknowns), &unknowns, &beliefs);
     let (mut damping, mut is_settled) = (DAMPING, false);
     let mut scored = Scored::at(&expectation, &cells, &unknowns, &beliefs);
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
+        if round == HUNT_ROUND {
+            let found = hunted(&expectation, &cells, &unknowns, &beliefs);
+            let found_cost = cells.cost(&expectation.power(&found), &found, &beliefs);
+            if found_cost < cost {
+                if std::env::var("ROOM").is_ok() {
+                    eprintln!("hunt {:.4} {:.1} -> {:.4} {:.1}: {}", unknowns[0], 1e3*unknowns[1].exp(), found[0], 1e3*found[1].exp(), cost - found_cost);
+                }
+                (unknowns, cost) = (found, found_cost);
+                scored = Scored::at(&expectation, &cells, &unknowns, &beliefs);
+                damping = DAMPING;
+            }
+        }
         let step = limited(scored.step(damping)?);
         let moved = &unknowns + &step;
         let moved_cost = cells.cost(&expectation.power(&moved), &moved, &beliefs);
@@ -124,9 +138,25 @@ pub fn step_in_room(
             let unknown = CURVE + at;
             PlaceValue { value: unknowns[unknown], variance: covariance[(unknown, unknown)] }
         }),
-        cost,
+        cost: unknowns[3],
         is_settled,
     })
+}
+
+const HUNT_ROUND: usize = 4;
+const HUNT_STARTS_S: [f64; 11] = [-0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05];
+const HUNT_LOGARITHMS: [f64; 7] = [-0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6];
+
+/// The best of starts and time constants, with all else as it is.
+fn hunted(expectation: &Expectation, cells: &Cells, unknowns: &DVector<f64>, beliefs: &Beliefs) -> DVector<f64> {
+    let moved = |start_s: f64, logarithm: f64| {
+        let mut moved = unknowns.clone();
+        moved[0] += start_s;
+        moved[1] += logarithm;
+        (cells.cost(&expectation.power(&moved), &moved, beliefs), moved)
+    };
+    let all = HUNT_STARTS_S.iter().flat_map(|start_s| HUNT_LOGARITHMS.iter().map(move |logarithm| moved(*start_s, *logarithm)));
+    all.min_by(|a, b| a.0.total_cmp(&b.0)).map_or_else(|| unknowns.clone(), |(_, best)| best)
 }
 
 fn limited(step: DVector<f64>) -> DVector<f64> {

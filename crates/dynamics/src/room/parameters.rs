@@ -6,12 +6,10 @@ use nalgebra::DVector;
 
 /// Start, ln τ, ln(to/from), and the power of the speed with which the sound gets louder.
 pub(super) const CURVE: usize = 4;
-/// Behind them: ln of the power of early reflections and of the tail over that of the direct sound, and ln of the tail's time constant.
+/// Behind them: ln of the power of the echoes over that of the direct sound, of the time constant of their tail, and of the time of the first one.
 pub const PLACE: usize = 3;
 /// Shares of the mean speed at which rotors are sought: the dictionary of the shape of a line. *Decision*: rotors of a bench are alike.
 pub(super) const SHARES: [f64; 5] = [-0.016, -0.008, 0.0, 0.008, 0.016];
-/// Delays of early reflections, evenly. *Physics*: a wall is within some metres.
-const EARLY_S: [f64; 4] = [0.002, 0.005, 0.009, 0.014];
 /// Steps between delays of the tail, and how many time constants of it are heard. *Numeric.*
 const TAIL_STEPS: usize = 16;
 const TAIL_TIME_CONSTANTS: f64 = 4.0;
@@ -72,15 +70,14 @@ pub(super) struct Arrival {
     pub(super) power: f64,
 }
 
-/// The echogram: the direct sound with a power of 1, early reflections, and a tail that falls exponentially.
+/// The echogram: the direct sound with a power of 1, and a tail that falls exponentially.
 pub(super) fn arrivals(unknowns: &DVector<f64>) -> Vec<Arrival> {
-    let [early, tail, time_constant_s]: [f64; PLACE] = std::array::from_fn(|at| unknowns[CURVE + at].exp());
+    let [echoes, time_constant_s, first_s]: [f64; PLACE] = std::array::from_fn(|at| unknowns[CURVE + at].exp());
     let mut arrivals = vec![Arrival { delay_s: 0.0, power: 1.0 }];
-    arrivals.extend(EARLY_S.map(|delay_s| Arrival { delay_s, power: early / EARLY_S.len() as f64 }));
     let step = TAIL_TIME_CONSTANTS / TAIL_STEPS as f64;
     arrivals.extend((0..TAIL_STEPS).map(|at| {
         let delay = (at as f64 + 0.5) * step;
-        Arrival { delay_s: delay * time_constant_s, power: tail * step * (-delay).exp() }
+        Arrival { delay_s: first_s + delay * time_constant_s, power: echoes * step * (-delay).exp() }
     }));
     arrivals
 }

@@ -6,7 +6,7 @@ use hovertone_signal::passes::Passes;
 use hovertone_vehicle::{Ending, Estimate};
 
 /// Rounds along the curves of the round before. *Numeric.*
-pub(super) const ROUNDS: u32 = 2;
+pub(super) const ROUNDS: u32 = 3;
 /// Part of the recording around the start of a step. *Physics*: the level before; and τ of a slow motor, with the tail of a room.
 const BEFORE_S: f64 = 0.2;
 const BEHIND_S: f64 = 0.3;
@@ -38,7 +38,7 @@ pub(super) fn steps_with_echoes(
             let estimate = |value: f64, std: f64| Estimate { value, std_uncertainty: Some(std), ending: Ending::Solved };
             if std::env::var("ROOM").is_ok() {
                 eprintln!(
-                    "{round} at {:.4} -> {:.4} ± {:.4}: {:.2} -> {:.2} ± {:.2} ms, ratio {:.4} of {:.4}, early {:.2} tail {:.2} {:.0} ms cost {:.1} {}",
+                    "{round} at {:.4} -> {:.4} ± {:.4}: {:.2} -> {:.2} ± {:.2} ms, ratio {:.4} of {:.4}, echoes {:.2} {:.0} ms first {:.0} ms cost {:.1} {}",
                     first.time_s.value,
                     heard.start_s,
                     heard.start_std_s,
@@ -48,7 +48,7 @@ pub(super) fn steps_with_echoes(
                     heard.ratio,
                     first.speed_to_rev_s / first.speed_from_rev_s,
                     heard.place[0].value.exp(),
-                    heard.place[1].value.exp(),
+                    heard.place[1].value.exp() * 1e3,
                     1e3 * heard.place[2].value.exp(),
                     heard.cost,
                     heard.is_settled
