@@ -1,7 +1,7 @@
 //! Unknowns → expected power of each bin of each frame, and its derivatives.
 
 use super::kernel::{Kernel, WIDTH};
-use super::parameters::{Arrival, CURVE, Layout, NOISE_KNOTS, PLACE, RoomCurve, SHARES, arrivals};
+use super::parameters::{Arrival, CURVE, GAINS, Layout, NOISE_KNOTS, PLACE, RoomCurve, SHARES, arrivals};
 use super::spectra::{PLACES, StepSpectra, TurnFrame};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
@@ -10,10 +10,8 @@ use std::f64::consts::PI;
 const DIFFERENCES: [f64; CURVE + PLACE] = [5e-4, 0.01, 1e-3, 0.05, 0.1, 0.05, 0.1];
 /// Unknowns with differences to both sides: those of the curve itself. *Numeric.*
 const CENTRAL: usize = 3;
-/// When the gain of a line before the step ends and that behind it begins, in time constants from the start. *Decision*: between them the line
-/// crosses many resonances of the room.
-const BEFORE_ENDS: [f64; 2] = [0.0, 1.0];
-const BEHIND_BEGINS: [f64; 2] = [2.0, 4.0];
+/// When the gains of a line are given, in time constants from the start: between them it crosses resonances of the room. *Decision.*
+const GAIN_KNOTS: [f64; GAINS] = [0.0, 0.6, 1.5, 3.5];
 
 /// What does not change during a fit.
 pub(super) struct Expectation<'a> {
@@ -23,9 +21,8 @@ pub(super) struct Expectation<'a> {
     place_weights: [f64; PLACES],
     /// Speed before the step; the shares of the rotors make up for its error.
     from_rev_s: f64,
-    /// Shares of the gains before and behind in each frame.
-    before: Vec<f64>,
-    behind: Vec<f64>,
+    /// Shares of the gains in each frame.
+    gains: Vec<[f64; GAINS]>,
     /// Lower knot of each bin, and the share of the upper one.
     knots: Vec<(usize, f64)>,
 }
@@ -40,8 +37,17 @@ pub(super) struct Expected {
 impl<'a> Expectation<'a> {
     /// `first`: the curve that the fit begins with.
     pub(super) fn new(spectra: &'a StepSpectra, first: &RoomCurve) -> Self {
-        let ramp = |[from, to]: [f64; 2], time_s: f64| {
-            (((time_s - first.start_s) / first.time_constant_s - from) / (to - from)).clamp(0.0, 1.0)
+        let gains = |frame: &TurnFrame| {
+            let place = (frame.centre_s - first.start_s) / first.time_constant_s;
+            let behind = GAIN_KNOTS.iter().position(|knot| place < *knot).unwrap_or(GAINS);
+            let mut shares = [0.0; GAINS];
+            if behind == 0 || behind == GAINS {
+                shares[behind.min(GAINS - 1)] = 1.0;
+            } else {
+                let share = (place - GAIN_KNOTS[behind - 1]) / (GAIN_KNOTS[behind] - GAIN_KNOTS[behind - 1]);
+                (shares[behind - 1], shares[behind]) = (1.0 - share, share);
+            }
+            shares
         };
         let weights: [f64; PLACES] =
             std::array::from_fn(|place| (PI * (place as f64 + 0.5) / PLACES as f64).sin().powi(4));
@@ -61,8 +67,7 @@ impl<'a> Expectation<'a> {
             kernel: Kernel::new(),
             place_weights: weights.map(|weight| weight / sum),
             from_rev_s: first.from_rev_s,
-            before: spectra.frames.iter().map(|frame| 1.0 - ramp(BEFORE_ENDS, frame.centre_s)).collect(),
-            behind: spectra.frames.iter().map(|frame| ramp(BEHIND_BEGINS, frame.centre_s)).collect(),
+            gains: spectra.frames.iter().map(gains).collect(),
             knots: (0..bins).map(knot).collect(),
         }
     }
@@ -127,9 +132,9 @@ impl<'a> Expectation<'a> {
             for share in 0..SHARES.len() {
                 sum += slopes.column(self.layout.power(line, share));
             }
-            for (side, shares) in [&self.before, &self.behind].into_iter().enumerate() {
-                let column = sum.map_with_location(|cell, _, value| value * shares[cell / bins]);
-                slopes.set_column(self.layout.gain(line, side), &column);
+            for knot in 0..GAINS {
+                let column = sum.map_with_location(|cell, _, value| value * self.gains[cell / bins][knot]);
+                slopes.set_column(self.layout.gain(line, knot), &column);
             }
         }
     }
@@ -166,8 +171,8 @@ impl<'a> Expectation<'a> {
         let bins = self.spectra.bin_count();
         for (at, frame) in seen.iter().enumerate() {
             for (line, order) in self.spectra.orders.iter().enumerate() {
-                let gain = self.before[at] * unknowns[self.layout.gain(line, 0)]
-                    + self.behind[at] * unknowns[self.layout.gain(line, 1)];
+                let gains = self.gains[at].iter().enumerate();
+                let gain: f64 = gains.map(|(knot, share)| share * unknowns[self.layout.gain(line, knot)]).sum();
                 for (share, of_mean) in SHARES.iter().enumerate() {
                     let unknown = self.layout.power(line, share);
                     let power = (unknowns[unknown] + gain).exp();

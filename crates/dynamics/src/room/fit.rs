@@ -2,7 +2,7 @@
 
 use super::evaluation::{Cells, Scored};
 use super::expected::Expectation;
-use super::parameters::{Beliefs, CURVE, Layout, NOISE_KNOTS, PLACE, RoomCurve, SHARES};
+use super::parameters::{Beliefs, CURVE, GAINS, Layout, NOISE_KNOTS, PLACE, RoomCurve, SHARES};
 use super::spectra::StepSpectra;
 use hovertone_signal::statistics::median;
 use nalgebra::DVector;
@@ -126,6 +126,9 @@ pub fn step_in_room(
             damping *= DAMPING_FACTOR * DAMPING_FACTOR;
         }
     }
+    let mut none = unknowns.clone();
+    none[2] = 0.0;
+    let none_cost = cells.cost(&expectation.power(&none), &none, &beliefs);
     let covariance = scored.covariance()?;
     let curve = expectation.curve(&unknowns);
     Some(RoomStep {
@@ -138,13 +141,13 @@ pub fn step_in_room(
             let unknown = CURVE + at;
             PlaceValue { value: unknowns[unknown], variance: covariance[(unknown, unknown)] }
         }),
-        cost: unknowns[3],
+        cost: none_cost - cost,
         is_settled,
     })
 }
 
 const HUNT_ROUND: usize = 4;
-const HUNT_STARTS_S: [f64; 11] = [-0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05];
+const HUNT_STARTS_S: [f64; 13] = [-0.07, -0.06, -0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05];
 const HUNT_LOGARITHMS: [f64; 7] = [-0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6];
 
 /// The best of starts and time constants, with all else as it is.
@@ -189,8 +192,8 @@ fn beliefs_of(spectra: &StepSpectra, first: &RoomCurve, place: &[PlaceValue; PLA
         for share in 0..SHARES.len() {
             mean[layout.power(line, share)] = (highest / SHARES.len() as f64).ln();
         }
-        for side in 0..2 {
-            std[layout.gain(line, side)] = GAIN_STD;
+        for knot in 0..GAINS {
+            std[layout.gain(line, knot)] = GAIN_STD;
         }
     }
     for (at, belief) in place.iter().enumerate() {

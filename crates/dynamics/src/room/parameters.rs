@@ -13,6 +13,8 @@ pub(super) const SHARES: [f64; 5] = [-0.016, -0.008, 0.0, 0.008, 0.016];
 /// Steps between delays of the tail, and how many time constants of it are heard. *Numeric.*
 const TAIL_STEPS: usize = 16;
 const TAIL_TIME_CONSTANTS: f64 = 4.0;
+/// Knots of the gain of a line over time: from before the step to behind it. *Decision.*
+pub(super) const GAINS: usize = 4;
 /// Knots of the noise over the orders. *Decision.*
 pub(super) const NOISE_KNOTS: usize = 8;
 
@@ -48,9 +50,9 @@ impl Layout {
         CURVE + PLACE + line * SHARES.len() + share
     }
 
-    /// ln of a line's gain before the step (0) and behind it (1).
-    pub(super) fn gain(self, line: usize, side: usize) -> usize {
-        CURVE + PLACE + self.lines * SHARES.len() + 2 * line + side
+    /// ln of a line's gain at a knot of time.
+    pub(super) fn gain(self, line: usize, knot: usize) -> usize {
+        CURVE + PLACE + self.lines * SHARES.len() + GAINS * line + knot
     }
 
     /// ln of the noise at a knot, before and behind.
