@@ -35,7 +35,7 @@ pub use listening::{
 };
 pub use load::LoadTerm;
 pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series};
-pub use room::{PLACE, PLACES, PlaceValue, RoomStep, any_place, place_of, StepSpectra, TurnFrame, step_in_room};
+pub use room::*;
 pub use series::{CommandSeries, MotorSeries, command_of_speed};
 pub use static_map::{MapOrigin, MapPoint, StaticMap};
 pub use step::{MotorStep, StepVerdict};

@@ -1,7 +1,7 @@
 //! The likelihood of the spectra, with beliefs, and one step of Fisher's scoring.
 
+use super::beliefs::Beliefs;
 use super::expected::Expectation;
-use super::parameters::Beliefs;
 use super::spectra::StepSpectra;
 use nalgebra::{Cholesky, DMatrix, DVector};
 

@@ -4,6 +4,7 @@
 //! powers add: `P(x, t) = Σ A ∫ q(v) K(x − order · ω(t − v)/ω_path(t)) dv + noise`, with the echogram q(v), power over the delay v. A tail that is
 //! as loud as the direct sound shifts no line, then: it is a second one.
 
+mod beliefs;
 mod evaluation;
 mod expected;
 mod fit;
@@ -11,6 +12,7 @@ mod kernel;
 mod parameters;
 mod spectra;
 
-pub use fit::{PlaceValue, RoomStep, any_place, place_of, step_in_room};
-pub use parameters::PLACE;
+pub use beliefs::{PlaceBelief, PlaceValue, any_place, place_of};
+pub use fit::{RoomRequest, RoomStep, step_in_room};
+pub use parameters::RoomCurve;
 pub use spectra::{PLACES, StepSpectra, TurnFrame};

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 /// Start, ln τ, ln(to/from), and the power of the speed with which the sound gets louder.
 pub(super) const CURVE: usize = 4;
 /// Behind them: ln of the power of the echoes over that of the direct sound, of the time constant of their tail, and of the time of the first one.
-pub const PLACE: usize = 3;
+pub(super) const PLACE: usize = 3;
 /// Shares of the mean speed at which rotors are sought: the dictionary of the shape of a line. *Decision*: rotors of a bench are alike.
 pub(super) const SHARES: [f64; 5] = [-0.016, -0.008, 0.0, 0.008, 0.016];
 /// Steps between delays of the tail, and how many time constants of it are heard. *Numeric.*
@@ -20,16 +20,21 @@ pub(super) const NOISE_KNOTS: usize = 8;
 
 /// A curve of first order from a given speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RoomCurve {
-    pub(super) start_s: f64,
-    pub(super) time_constant_s: f64,
-    pub(super) from_rev_s: f64,
-    pub(super) to_rev_s: f64,
+pub struct RoomCurve {
+    /// When the speed begins to change.
+    pub start_s: f64,
+    /// τ.
+    pub time_constant_s: f64,
+    /// Speed before.
+    pub from_rev_s: f64,
+    /// Speed that the curve approaches.
+    pub to_rev_s: f64,
 }
 
 impl RoomCurve {
+    /// The speed at a time.
     #[inline]
-    pub(super) fn at(&self, time_s: f64) -> f64 {
+    pub fn at(&self, time_s: f64) -> f64 {
         self.from_rev_s + (self.to_rev_s - self.from_rev_s) * response(time_s, self.start_s, self.time_constant_s)
     }
 }
@@ -82,10 +87,4 @@ pub(super) fn arrivals(unknowns: &DVector<f64>) -> Vec<Arrival> {
         Arrival { delay_s: first_s + delay * time_constant_s, power: echoes * step * (-delay).exp() }
     }));
     arrivals
-}
-
-/// What is believed before the sound is heard: means and standard deviations.
-pub(super) struct Beliefs {
-    pub(super) mean: DVector<f64>,
-    pub(super) precision: DVector<f64>,
 }

@@ -15,7 +15,7 @@ use hovertone_rotor_speed::{
     quick_track_along, quick_track_from_passes, speed_from_passes,
 };
 use hovertone_signal::passes::Passes;
-use room::steps_with_echoes;
+use room::with_echoes;
 use std::ops::Range;
 
 pub use hovertone_dynamics::{MotorConstants, StaticMap, StepVerdict, constants_of, motor_from_series};
@@ -23,7 +23,7 @@ pub use hovertone_dynamics::{MotorConstants, StaticMap, StepVerdict, constants_o
 /// How often the track is made again along the curves. *Numeric.*
 const ROUNDS: u32 = 4;
 /// Passes of [`motor_from_sound`]. *Numeric.*
-pub const PASSES_OF_MOTOR: u32 = hovertone_rotor_speed::PASSES_OF_QUICK_TRACK + ROUNDS + room::ROUNDS;
+pub const PASSES_OF_MOTOR: u32 = hovertone_rotor_speed::PASSES_OF_QUICK_TRACK + ROUNDS + room::ROUNDS as u32;
 /// Levels that are heard by themselves where the whole recording has no hover. *Decision.*
 const LEVELS_MAX: usize = 4;
 /// Step of the path along curves: fine against time constants. *Numeric.*
@@ -122,7 +122,7 @@ pub fn motor_from_sound(
         motor = motor_of_track(&quick_track_along(passes, tone, speed_rev_s, span_s.clone(), &path)?);
     }
     if let Some(model) = &mut motor.model {
-        steps_with_echoes(passes, tone, speed_rev_s, &mut model.steps)?;
+        with_echoes(passes, tone, speed_rev_s, &mut model.steps)?;
     }
     Ok(match commands {
         Some(commands) => with_commands(motor, commands),

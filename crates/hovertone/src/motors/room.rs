@@ -1,82 +1,119 @@
-//! Steps with the echoes of the place: each step's spectra along its curve, and the curve from them.
+//! Steps with the echoes of their place: each step's spectra along its curve, and the curve from them.
 
-use hovertone_dynamics::{MotorStep, PLACE, PLACES, PlaceValue, RoomStep, any_place, place_of, StepSpectra, TurnFrame, step_in_room};
+use hovertone_dynamics::{
+    MotorStep, PLACES, PlaceBelief, RoomCurve, RoomRequest, RoomStep, StepSpectra, StepVerdict, TurnFrame, any_place,
+    place_of, step_in_room,
+};
 use hovertone_rotor_speed::{Error, PathWindow, SpeedPath, ToneConfig, TurnFrames, turn_frames_from_passes};
 use hovertone_signal::passes::Passes;
+use hovertone_signal::statistics::median;
 use hovertone_vehicle::{Ending, Estimate};
 
 /// Rounds along the curves of the round before. *Numeric.*
-pub(super) const ROUNDS: u32 = 3;
-/// Part of the recording around the start of a step. *Physics*: the level before; and τ of a slow motor, with the tail of a room.
+pub(super) const ROUNDS: usize = 3;
+/// Part of the recording around the start of a step. *Physics*: the level before; and the tail of a room.
 const BEFORE_S: f64 = 0.2;
 const BEHIND_S: f64 = 0.3;
-/// The same in time constants. *Numeric.*
+/// The part behind has as many time constants more. *Numeric.*
 const BEHIND_TIME_CONSTANTS: f64 = 3.0;
-/// Time between frames. *Numeric.*
+/// Time between frames: a fifth of a frame. *Numeric.*
 const HOP_S: f64 = 0.015;
-/// Step of the path. *Numeric.*
+/// Step of a path, and its length beyond the part that is heard. *Numeric.*
 const PATH_STEP_S: f64 = 0.001;
 const PATH_MARGIN_S: f64 = 0.5;
+/// Power of the echoes over the direct sound below which a place is open: the likeness of frames tells τ better there. *Decision.*
+const OPEN_RATIO: f64 = 0.2;
+/// Shortest time constant over the length of a frame: a faster change is the path that jumps to half the speed, and no motor. *Decision.*
+const TIME_CONSTANT_SHARE_MIN: f64 = 0.25;
+/// A step is tried with τ of the others where it differs by this share. *Decision.*
+const OTHER_SHARE: f64 = 0.08;
 
-/// Fits the steps with a curve again.
-pub(super) fn steps_with_echoes(
+/// Fits the steps with a curve again, in rounds. In the open they stay as they are.
+pub(super) fn with_echoes(
     passes: &mut Passes<'_>,
     tone: &ToneConfig,
     speed_rev_s: f64,
     steps: &mut [MotorStep],
 ) -> Result<(), Error> {
-    let mut firsts: Vec<MotorStep> = steps.to_vec();
     let mut place = any_place();
+    let mut curves: Vec<Option<RoomCurve>> = steps.iter().map(curve_of).collect();
+    let mut heard: Vec<Option<RoomStep>> = Vec::new();
     for round in 0..ROUNDS {
-        let windows: Vec<PathWindow> = firsts.iter().map(window_of).collect();
-        let all = turn_frames_from_passes(passes, tone, speed_rev_s, &windows, PLACES)?;
-        let mut all_heard = Vec::new();
-        for (((step, first), frames), window) in steps.iter_mut().zip(&mut firsts).zip(all).zip(&windows) {
-            let Some(heard) = heard_step(first, frames, window, &place) else { continue };
-            all_heard.push(heard);
-            let std_s = heard.time_constant_std_share * heard.time_constant_s;
-            let estimate = |value: f64, std: f64| Estimate { value, std_uncertainty: Some(std), ending: Ending::Solved };
-            if std::env::var("ROOM").is_ok() {
-                eprintln!(
-                    "{round} at {:.4} -> {:.4} ± {:.4}: {:.2} -> {:.2} ± {:.2} ms, ratio {:.4} of {:.4}, echoes {:.2} {:.0} ms first {:.0} ms cost {:.1} {}",
-                    first.time_s.value,
-                    heard.start_s,
-                    heard.start_std_s,
-                    1e3 * first.time_constant_s.map_or(0.0, |told| told.value),
-                    1e3 * heard.time_constant_s,
-                    1e3 * std_s,
-                    heard.ratio,
-                    first.speed_to_rev_s / first.speed_from_rev_s,
-                    heard.place[0].value.exp(),
-                    heard.place[1].value.exp() * 1e3,
-                    1e3 * heard.place[2].value.exp(),
-                    heard.cost,
-                    heard.is_settled
-                );
-            }
-            first.time_s = estimate(heard.start_s, heard.start_std_s);
-            first.time_constant_s = Some(estimate(heard.time_constant_s, std_s));
-            first.speed_to_rev_s = first.speed_from_rev_s * heard.ratio;
-            *step = *first;
+        let windows: Vec<PathWindow> = curves.iter().flatten().map(window_of).collect();
+        let mut frames = turn_frames_from_passes(passes, tone, speed_rev_s, &windows, PLACES)?.into_iter().zip(&windows);
+        heard.clear();
+        for curve in &curves {
+            let Some((curve, (frames, window))) = curve.as_ref().and_then(|curve| Some((curve, frames.next()?))) else {
+                heard.push(None);
+                continue;
+            };
+            let other_time_constant_s = if round > 0 { other_time_constant_s(&curves, curve) } else { None };
+            let request = RoomRequest { curve: *curve, place, other_time_constant_s };
+            let spectra = spectra_of(frames, window);
+            let shortest_s = TIME_CONSTANT_SHARE_MIN * spectra.frames.first().map_or(0.0, |frame| frame.length_s);
+            let is_motor = |step: &RoomStep| step.curve.time_constant_s > shortest_s;
+            heard.push(step_in_room(&spectra, &request).filter(is_motor));
         }
-        place = place_of(all_heard.iter());
+        let told: Vec<RoomStep> = heard.iter().flatten().copied().collect();
+        place = place_of(&told, &place);
+        if is_open(&place) {
+            return Ok(());
+        }
+        curves = heard.iter().map(|step| step.map(|step| step.curve)).collect();
+    }
+    for (step, heard) in steps.iter_mut().zip(heard).filter(|(step, _)| step.time_constant_s.is_some()) {
+        *step = heard.map_or_else(|| without_curve(step), |heard| with_curve(step, &heard));
     }
     Ok(())
 }
 
-fn window_of(step: &MotorStep) -> PathWindow {
-    let start_s = step.time_s.value;
-    let time_constant_s = step.time_constant_s.map_or(0.0, |told| told.value);
-    let span_s = (start_s - BEFORE_S).max(0.0)..start_s + BEHIND_S + BEHIND_TIME_CONSTANTS * time_constant_s;
+fn is_open(place: &PlaceBelief) -> bool {
+    place[0].value < OPEN_RATIO.ln()
+}
+
+fn curve_of(step: &MotorStep) -> Option<RoomCurve> {
+    Some(RoomCurve {
+        start_s: step.time_s.value,
+        time_constant_s: step.time_constant_s?.value,
+        from_rev_s: step.speed_from_rev_s,
+        to_rev_s: step.speed_to_rev_s,
+    })
+}
+
+fn with_curve(step: &MotorStep, heard: &RoomStep) -> MotorStep {
+    let estimate = |value: f64, std: f64| Estimate { value, std_uncertainty: Some(std), ending: Ending::Solved };
+    MotorStep {
+        time_s: estimate(heard.curve.start_s, heard.start_std_s),
+        time_constant_s: Some(estimate(heard.curve.time_constant_s, heard.time_constant_std_s)),
+        speed_to_rev_s: heard.curve.to_rev_s,
+        verdict: StepVerdict::Used,
+        ..*step
+    }
+}
+
+fn without_curve(step: &MotorStep) -> MotorStep {
+    MotorStep { time_constant_s: None, dead_time_s: None, verdict: StepVerdict::OtherCurve, ..*step }
+}
+
+/// The median τ of the other steps of this sense, where it differs.
+fn other_time_constant_s(curves: &[Option<RoomCurve>], curve: &RoomCurve) -> Option<f64> {
+    let is_up = |curve: &RoomCurve| curve.to_rev_s > curve.from_rev_s;
+    let others = curves.iter().flatten().filter(|other| *other != curve && is_up(other) == is_up(curve));
+    let other_s = median(&others.map(|other| other.time_constant_s).collect::<Vec<_>>())?;
+    ((other_s / curve.time_constant_s).ln().abs() > OTHER_SHARE).then_some(other_s)
+}
+
+fn window_of(curve: &RoomCurve) -> PathWindow {
+    let behind_s = BEHIND_S + BEHIND_TIME_CONSTANTS * curve.time_constant_s;
+    let span_s = (curve.start_s - BEFORE_S).max(0.0)..curve.start_s + behind_s;
     let from_s = span_s.start - PATH_MARGIN_S;
     let count = ((span_s.end + PATH_MARGIN_S - from_s) / PATH_STEP_S) as usize;
     let time_s: Vec<f64> = (0..count).map(|at| from_s + at as f64 * PATH_STEP_S).collect();
-    let speed_rev_s = time_s.iter().map(|&at_s| step.speed_rev_s_at(at_s).unwrap_or(step.speed_to_rev_s)).collect();
+    let speed_rev_s = time_s.iter().map(|&at_s| curve.at(at_s)).collect();
     PathWindow { span_s, hop_s: HOP_S, path: SpeedPath { time_s, speed_rev_s } }
 }
 
-fn heard_step(step: &MotorStep, frames: TurnFrames, window: &PathWindow, place: &[PlaceValue; PLACE]) -> Option<RoomStep> {
-    let time_constant_s = step.time_constant_s?.value;
+fn spectra_of(frames: TurnFrames, window: &PathWindow) -> StepSpectra {
     let frame = |frame: hovertone_rotor_speed::TurnFrame| TurnFrame {
         centre_s: frame.centre_s,
         length_s: frame.length_s,
@@ -84,12 +121,11 @@ fn heard_step(step: &MotorStep, frames: TurnFrames, window: &PathWindow, place: 
         path_rev_s: std::array::from_fn(|place| window.path.at(frame.place_s[place])),
         power: frame.power,
     };
-    let spectra = StepSpectra {
+    StepSpectra {
         turns: frames.turns,
         first_bin: frames.first_bin,
         orders: frames.orders,
         hop_s: window.hop_s,
         frames: frames.frames.into_iter().map(frame).collect(),
-    };
-    step_in_room(&spectra, step.time_s.value, time_constant_s, step.speed_from_rev_s, step.speed_to_rev_s, place)
+    }
 }
