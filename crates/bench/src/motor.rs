@@ -54,8 +54,15 @@ struct Exam {
 
 impl Exam {
     fn of_options(options: &[&str]) -> Result<Self, String> {
-        let mut exam =
-            Self { count: COUNT, first_seed: 0, reverberation_s: REVERBERATION_S, is_listed: false, is_room: None, save_to: None, vehicles: VEHICLES.to_vec() };
+        let mut exam = Self {
+            count: COUNT,
+            first_seed: 0,
+            reverberation_s: REVERBERATION_S,
+            is_listed: false,
+            is_room: None,
+            save_to: None,
+            vehicles: VEHICLES.to_vec(),
+        };
         let mut rest = options.iter();
         while let Some(&option) = rest.next() {
             if option == "--list" {
@@ -81,8 +88,7 @@ impl Exam {
 
     fn benches(&self, vehicle: &'static str) -> impl Iterator<Item = Bench> {
         let seeds = self.first_seed..self.first_seed + self.count;
-        let bench =
-            move |seed| Bench { reverberation_s: self.reverberation_s, ..Bench::drawn(vehicle, seed) };
+        let bench = move |seed| Bench { reverberation_s: self.reverberation_s, ..Bench::drawn(vehicle, seed) };
         seeds.map(bench).filter(|bench| self.is_room.is_none_or(|is_room| bench.is_room == is_room))
     }
 }
@@ -98,7 +104,8 @@ impl Answer {
     fn print(&self, bench: &Bench) {
         let places = if self.is_room { "room" } else { "open" };
         let heard = self.heard;
-        let told = [heard.and_then(|heard| heard.time_constant_up_s), heard.and_then(|heard| heard.time_constant_down_s)];
+        let told =
+            [heard.and_then(|heard| heard.time_constant_up_s), heard.and_then(|heard| heard.time_constant_down_s)];
         let words = told.into_iter().zip(self.truth_s).map(|(told, truth_s)| match told.map(|told| told.estimate) {
             Some(Estimate { value, std_uncertainty: Some(std), .. }) => {
                 format!("{:.1} ± {:.1} of {:.1} ms", 1e3 * value, 1e3 * std, 1e3 * truth_s)
@@ -198,7 +205,8 @@ impl Bench {
 
     /// What a microphone hears of it.
     fn sound(&self) -> Result<(Vec<f32>, f64), String> {
-        let room = self.is_room.then(|| RoomSection { reverberation_s: Some(self.reverberation_s), ..RoomSection::default() });
+        let room =
+            self.is_room.then(|| RoomSection { reverberation_s: Some(self.reverberation_s), ..RoomSection::default() });
         let mut file = ScenarioFile { seed: self.seed, duration_s: Some(1.0), room, ..ScenarioFile::default() };
         file.vehicle.preset = self.vehicle.to_owned();
         file.motor_wander = Some(MotorWanderSection::default());

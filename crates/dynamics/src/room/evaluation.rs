@@ -19,7 +19,10 @@ impl Cells {
             let weight = (spectra.hop_s / frame.length_s).min(1.0);
             frame.power.iter().map(move |_| weight)
         });
-        Self { power: DVector::from_iterator(power.clone().count(), power), weight: DVector::from_iterator(weight.clone().count(), weight) }
+        Self {
+            power: DVector::from_iterator(power.clone().count(), power),
+            weight: DVector::from_iterator(weight.clone().count(), weight),
+        }
     }
 
     /// Minus the logarithm of likelihood (Whittle) times belief.

@@ -59,8 +59,7 @@ pub fn step_in_room(spectra: &StepSpectra, request: &RoomRequest) -> Option<Room
         return None;
     }
     let beliefs = beliefs_of(spectra, &request.curve, &request.place);
-    let search =
-        Search { expectation: Expectation::new(spectra, &request.curve), cells: Cells::of(spectra), beliefs };
+    let search = Search { expectation: Expectation::new(spectra, &request.curve), cells: Cells::of(spectra), beliefs };
     let mut best = search.fitted(search.beliefs.mean.clone())?;
     if let Some(other_s) = request.other_time_constant_s {
         let other = search.hunted(&best.unknowns, other_s.ln() - best.unknowns[1], &[0.0]);
@@ -149,7 +148,9 @@ impl Search<'_> {
 /// A step with changes that the model bears.
 fn limited(step: DVector<f64>) -> DVector<f64> {
     let shrink = CURVE_CHANGE_MAX.iter().zip(&step).map(|(most, change)| most / change.abs()).fold(1.0, f64::min);
-    step.map_with_location(|at, _, change| {
-        if at < CURVE { change * shrink } else { change.clamp(-CHANGE_MAX, CHANGE_MAX) }
-    })
+    step.map_with_location(
+        |at, _, change| {
+            if at < CURVE { change * shrink } else { change.clamp(-CHANGE_MAX, CHANGE_MAX) }
+        },
+    )
 }

@@ -11,6 +11,9 @@ mod fit;
 mod kernel;
 mod parameters;
 mod spectra;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
 
 pub use beliefs::{PlaceBelief, PlaceValue, any_place, place_of};
 pub use fit::{RoomRequest, RoomStep, step_in_room};

@@ -121,13 +121,13 @@ pub fn motor_from_sound(
         let Some(path) = path_of(&motor) else { break };
         motor = motor_of_track(&quick_track_along(passes, tone, speed_rev_s, span_s.clone(), &path)?);
     }
+    if let Some(commands) = commands {
+        motor = with_commands(motor, commands);
+    }
     if let Some(model) = &mut motor.model {
         with_echoes(passes, tone, speed_rev_s, &mut model.steps)?;
     }
-    Ok(match commands {
-        Some(commands) => with_commands(motor, commands),
-        None => motor,
-    })
+    Ok(motor)
 }
 
 fn motor_of_track(track: &QuickTrack) -> HeardMotor {

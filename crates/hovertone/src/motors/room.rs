@@ -40,7 +40,8 @@ pub(super) fn with_echoes(
     let mut heard: Vec<Option<RoomStep>> = Vec::new();
     for round in 0..ROUNDS {
         let windows: Vec<PathWindow> = curves.iter().flatten().map(window_of).collect();
-        let mut frames = turn_frames_from_passes(passes, tone, speed_rev_s, &windows, PLACES)?.into_iter().zip(&windows);
+        let mut frames =
+            turn_frames_from_passes(passes, tone, speed_rev_s, &windows, PLACES)?.into_iter().zip(&windows);
         heard.clear();
         for curve in &curves {
             let Some((curve, (frames, window))) = curve.as_ref().and_then(|curve| Some((curve, frames.next()?))) else {
@@ -82,7 +83,13 @@ fn curve_of(step: &MotorStep) -> Option<RoomCurve> {
 
 fn with_curve(step: &MotorStep, heard: &RoomStep) -> MotorStep {
     let estimate = |value: f64, std: f64| Estimate { value, std_uncertainty: Some(std), ending: Ending::Solved };
+    let later_s = heard.curve.start_s - step.time_s.value;
+    let dead_time = |told: Estimate| {
+        let std_s = told.std_uncertainty.unwrap_or(0.0).hypot(heard.start_std_s);
+        estimate(told.value + later_s, std_s)
+    };
     MotorStep {
+        dead_time_s: step.dead_time_s.map(dead_time),
         time_s: estimate(heard.curve.start_s, heard.start_std_s),
         time_constant_s: Some(estimate(heard.curve.time_constant_s, heard.time_constant_std_s)),
         speed_to_rev_s: heard.curve.to_rev_s,

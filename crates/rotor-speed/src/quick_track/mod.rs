@@ -24,9 +24,9 @@ use coarse::CoarseListener;
 use hovertone_signal::passes::Passes;
 use lines::TrackedLines;
 pub use path::SpeedPath;
-pub use turn_frames::{PathWindow, TurnFrame, TurnFrames, turn_frames_from_passes};
 use piece::{Approach, PieceListener};
 use std::ops::Range;
+pub use turn_frames::{PathWindow, TurnFrame, TurnFrames, turn_frames_from_passes};
 
 /// Passes of [`quick_track_from_passes`]. *Numeric.*
 pub const PASSES_OF_QUICK_TRACK: u32 = 2;
