@@ -21,7 +21,7 @@ const LENGTH_S: f64 = HOLD_S * LEVELS.len() as f64;
 const STEP_S: f64 = 0.002;
 /// Time in which the sound of the room falls by 60 dB, unless another is given.
 const REVERBERATION_S: f64 = 0.4;
-const USAGE: &str = "cargo run --release -p hovertone-bench -- motor [--count N] [--first-seed N] [--reverberation S] [--list] [--save DIR]";
+const USAGE: &str = "cargo run --release -p hovertone-bench -- motor [--count N] [--first-seed N] [--reverberation S] [--only room|open] [--vehicle NAME] [--list] [--save DIR]";
 /// Largest error that counts as right.
 const RIGHT_SHARE: f64 = 0.03;
 

@@ -22,7 +22,7 @@ const HOP_S: f64 = 0.015;
 const PATH_STEP_S: f64 = 0.001;
 const PATH_MARGIN_S: f64 = 0.5;
 /// Power of the echoes over the direct sound below which a place is open: the likeness of frames tells τ better there. *Decision.*
-const OPEN_RATIO: f64 = 0.2;
+const OPEN_RATIO: f64 = 0.1;
 /// Shortest time constant over the length of a frame: a faster change is the path that jumps to half the speed, and no motor. *Decision.*
 const TIME_CONSTANT_SHARE_MIN: f64 = 0.25;
 /// A step is tried with τ of the others where it differs by this share. *Decision.*
