@@ -27,7 +27,7 @@ const HUNT_STEPS_LATER: i32 = 5;
 const HUNT_LOGARITHMS: [f64; 7] = [-0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6];
 /// True scatter of a step over that by the independence of cells. A line that crosses the resonances of a room slowly fades for several frames.
 /// *Decision*: measured on simulated benches in rooms.
-const FADING_FACTOR: f64 = 1.75;
+const FADING_FACTOR: f64 = 2.2;
 
 /// Where the fit of a step begins.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,7 +11,7 @@ use hovertone_vehicle::{Ending, Estimate};
 
 /// Rounds along the curves of the round before. *Numeric.*
 pub(super) const ROUNDS: usize = 3;
-/// Part of the recording around the start of a step. *Physics*: the level before; and the tail of a room.
+/// Part of the recording around the start of a step, for the level before and the tail of a room. *Decision.*
 const BEFORE_S: f64 = 0.2;
 const BEHIND_S: f64 = 0.3;
 /// The part behind has as many time constants more. *Numeric.*
