@@ -27,7 +27,10 @@ const HUNT_STEPS_LATER: i32 = 5;
 const HUNT_LOGARITHMS: [f64; 7] = [-0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6];
 /// True scatter of a step over that by the independence of cells. A line that crosses the resonances of a room slowly fades for several frames.
 /// *Decision*: measured on simulated benches in rooms.
-const FADING_FACTOR: f64 = 2.2;
+const FADING_FACTOR: f64 = 1.75;
+/// Standard uncertainty of τ by the shape of the tail, as a share of echoes' power times their time constant: no tail is a pure exponential.
+/// *Decision*: measured on the same benches.
+const TAIL_SHARE: f64 = 0.1;
 
 /// Where the fit of a step begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,10 +73,11 @@ pub fn step_in_room(spectra: &StepSpectra, request: &RoomRequest) -> Option<Room
     let covariance = best.scored.covariance()?;
     let curve = search.expectation.curve(&best.unknowns);
     let std = |at: usize| FADING_FACTOR * covariance[(at, at)].sqrt();
+    let [echoes, tail_s, _] = std::array::from_fn(|at| best.unknowns[CURVE + at].exp());
     Some(RoomStep {
         curve,
         start_std_s: std(0),
-        time_constant_std_s: curve.time_constant_s * std(1),
+        time_constant_std_s: (curve.time_constant_s * std(1)).hypot(TAIL_SHARE * echoes * tail_s),
         place: std::array::from_fn(|at| PlaceValue {
             value: best.unknowns[CURVE + at],
             variance: covariance[(CURVE + at, CURVE + at)],
