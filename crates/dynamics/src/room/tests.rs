@@ -71,7 +71,7 @@ fn the_tail_of_the_old_speed_does_not_move_the_step() {
         let error_s = step.curve.time_constant_s - TRUTH.time_constant_s;
         // independent cells scatter less than those of a room, for which the uncertainty is
         assert!(error_s.abs() < 2.0 * step.time_constant_std_s, "{echoes}: {step:?}");
-        assert!(step.time_constant_std_s < 0.1 * TRUTH.time_constant_s, "{step:?}");
+        assert!(step.time_constant_std_s < 0.2 * TRUTH.time_constant_s, "{step:?}");
         assert!((step.curve.start_s - TRUTH.start_s).abs() < 2.0 * step.start_std_s, "{echoes}: {step:?}");
         if echoes >= 1.0 {
             assert!((step.place[0].value.exp() / echoes).ln().abs() < 0.7, "{echoes}: {:?}", step.place);
