@@ -31,7 +31,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
   batch      `hovertone batch` on 10,000 recordings of 2 s: throughput, memory, and a run that is killed twenty times: docs/batch.md
              [--count N] for fewer recordings
   motor      time constants from the sound of steps, on simulated benches: a section of docs/motor.md
-             [--count N] for fewer benches
+             [--count N] for fewer benches, [--first-seed N] for others, [--reverberation S] for another room,
+             [--only room|open], [--vehicle NAME], [--list] to print each answer, [--save DIR] to keep the sounds
   accuracy   one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
              [--draws N] [--coverage N] for fewer draws, [--only PART] to print one part,
              [--install-peers] to install the other programs

@@ -9,7 +9,7 @@ use hovertone_sim::{FlightSound, RotorState, SoundState};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Benches of each vehicle.
 const COUNT: u64 = 100;
@@ -19,6 +19,9 @@ const LEVELS: [f64; 7] = [0.75, 1.0, 0.8, 1.1, 0.85, 1.05, 0.7];
 const HOLD_S: f64 = 1.6;
 const LENGTH_S: f64 = HOLD_S * LEVELS.len() as f64;
 const STEP_S: f64 = 0.002;
+/// Time in which the sound of the room falls by 60 dB, unless another is given.
+const REVERBERATION_S: f64 = 0.4;
+const USAGE: &str = "cargo run --release -p hovertone-bench -- motor [--count N] [--first-seed N] [--reverberation S] [--only room|open] [--vehicle NAME] [--list] [--save DIR]";
 /// Largest error that counts as right.
 const RIGHT_SHARE: f64 = 0.03;
 
@@ -28,10 +31,66 @@ struct Bench {
     vehicle: &'static str,
     seed: u64,
     is_room: bool,
+    reverberation_s: f64,
     time_constants_s: [f64; 2],
     /// Each rotor's speed over their mean.
     rotor_shares: [f64; 4],
     start_s: f64,
+}
+
+/// Which benches are heard.
+struct Exam {
+    count: u64,
+    first_seed: u64,
+    reverberation_s: f64,
+    /// Whether each answer is printed.
+    is_listed: bool,
+    /// Whether those in a room are heard, or those in the open; else both.
+    is_room: Option<bool>,
+    /// Folder for the sounds of the benches.
+    save_to: Option<PathBuf>,
+    vehicles: Vec<&'static str>,
+}
+
+impl Exam {
+    fn of_options(options: &[&str]) -> Result<Self, String> {
+        let mut exam = Self {
+            count: COUNT,
+            first_seed: 0,
+            reverberation_s: REVERBERATION_S,
+            is_listed: false,
+            is_room: None,
+            save_to: None,
+            vehicles: VEHICLES.to_vec(),
+        };
+        let mut rest = options.iter();
+        while let Some(&option) = rest.next() {
+            if option == "--list" {
+                exam.is_listed = true;
+                continue;
+            }
+            let value = rest.next().ok_or(USAGE)?;
+            let wrong = |_| format!("{option} {value}: not a number");
+            match option {
+                "--count" => exam.count = value.parse().map_err(|_| format!("{option} {value}: not a whole number"))?,
+                "--first-seed" => {
+                    exam.first_seed = value.parse().map_err(|_| format!("{option} {value}: not a whole number"))?;
+                }
+                "--reverberation" => exam.reverberation_s = value.parse().map_err(wrong)?,
+                "--only" => exam.is_room = Some(*value == "room"),
+                "--vehicle" => exam.vehicles = VEHICLES.into_iter().filter(|vehicle| vehicle == value).collect(),
+                "--save" => exam.save_to = Some(PathBuf::from(value)),
+                _ => return Err(USAGE.to_owned()),
+            }
+        }
+        Ok(exam)
+    }
+
+    fn benches(&self, vehicle: &'static str) -> impl Iterator<Item = Bench> {
+        let seeds = self.first_seed..self.first_seed + self.count;
+        let bench = move |seed| Bench { reverberation_s: self.reverberation_s, ..Bench::drawn(vehicle, seed) };
+        seeds.map(bench).filter(|bench| self.is_room.is_none_or(|is_room| bench.is_room == is_room))
+    }
 }
 
 /// τ up and down as heard, beside the truth.
@@ -41,18 +100,31 @@ struct Answer {
     truth_s: [f64; 2],
 }
 
+impl Answer {
+    fn print(&self, bench: &Bench) {
+        let places = if self.is_room { "room" } else { "open" };
+        let heard = self.heard;
+        let told =
+            [heard.and_then(|heard| heard.time_constant_up_s), heard.and_then(|heard| heard.time_constant_down_s)];
+        let words = told.into_iter().zip(self.truth_s).map(|(told, truth_s)| match told.map(|told| told.estimate) {
+            Some(Estimate { value, std_uncertainty: Some(std), .. }) => {
+                format!("{:.1} ± {:.1} of {:.1} ms", 1e3 * value, 1e3 * std, 1e3 * truth_s)
+            }
+            _ => format!("none of {:.1} ms", 1e3 * truth_s),
+        });
+        println!("{} {} {places}: {}", bench.vehicle, bench.seed, words.collect::<Vec<_>>().join(", "));
+    }
+}
+
 pub(crate) fn run(_root: &Path, options: &[&str]) -> Result<(), String> {
-    let count = match options {
-        [] => COUNT,
-        ["--count", count] => count.parse().map_err(|_| format!("--count {count}: not a whole number"))?,
-        _ => return Err("cargo run --release -p hovertone-bench -- motor [--count N]".to_owned()),
-    };
-    println!("\n{count} benches of each vehicle, half of them in a room\n");
+    let exam = Exam::of_options(options)?;
+    println!("\n{} benches of each vehicle, half of them in a room, from seed {}\n", exam.count, exam.first_seed);
+    println!("The room's sound falls by 60 dB in {} s.\n", exam.reverberation_s);
     println!("| vehicle | τ told | within 3 % | median error | error within 2 u |");
     println!("|---|---|---|---|---|");
-    for vehicle in VEHICLES {
+    for vehicle in exam.vehicles.iter().copied() {
         let answers: Vec<Answer> =
-            (0..count).map(|seed| answer(&Bench::drawn(vehicle, seed))).collect::<Result<_, String>>()?;
+            exam.benches(vehicle).map(|bench| answer(&exam, &bench)).collect::<Result<_, String>>()?;
         let places = [("", None), (", open", Some(false)), (", room", Some(true))];
         for (words, is_room) in places {
             let chosen = answers.iter().filter(|answer| is_room.is_none_or(|is_room| answer.is_room == is_room));
@@ -101,6 +173,7 @@ impl Bench {
             vehicle,
             seed,
             is_room: seed % 2 == 1,
+            reverberation_s: REVERBERATION_S,
             time_constants_s: [up_s, up_s * (1.0 + random.random::<f64>())],
             rotor_shares: shares,
             start_s: 0.2 * random.random::<f64>(),
@@ -118,9 +191,22 @@ impl Bench {
         share
     }
 
+    /// The sound as 32-bit floats, and the truth.
+    fn save(&self, folder: &Path, samples: &[f32]) -> std::io::Result<()> {
+        let name = format!("{}-{}", self.vehicle, self.seed);
+        let bytes: Vec<u8> = samples.iter().flat_map(|sample| sample.to_le_bytes()).collect();
+        std::fs::write(folder.join(format!("{name}.f32")), bytes)?;
+        let Self { is_room, time_constants_s: [up_s, down_s], rotor_shares, start_s, .. } = self;
+        let truth = format!(
+            "{{\"is_room\": {is_room}, \"up_s\": {up_s}, \"down_s\": {down_s}, \"start_s\": {start_s}, \"shares\": {rotor_shares:?}}}"
+        );
+        std::fs::write(folder.join(format!("{name}.json")), truth)
+    }
+
     /// What a microphone hears of it.
     fn sound(&self) -> Result<(Vec<f32>, f64), String> {
-        let room = self.is_room.then(|| RoomSection { reverberation_s: Some(0.4), ..RoomSection::default() });
+        let room =
+            self.is_room.then(|| RoomSection { reverberation_s: Some(self.reverberation_s), ..RoomSection::default() });
         let mut file = ScenarioFile { seed: self.seed, duration_s: Some(1.0), room, ..ScenarioFile::default() };
         file.vehicle.preset = self.vehicle.to_owned();
         file.motor_wander = Some(MotorWanderSection::default());
@@ -149,8 +235,11 @@ impl Bench {
     }
 }
 
-fn answer(bench: &Bench) -> Result<Answer, String> {
+fn answer(exam: &Exam, bench: &Bench) -> Result<Answer, String> {
     let (samples, sample_rate_hz) = bench.sound()?;
+    if let Some(folder) = &exam.save_to {
+        bench.save(folder, &samples).map_err(|error| error.to_string())?;
+    }
     let vehicle = find_preset(bench.vehicle).ok_or("no such vehicle")?;
     let gear = vehicle.gear.as_ref().map(|gear| gear.value.mesh_order());
     let order = match (gear, &vehicle.blade_count) {
@@ -165,7 +254,11 @@ fn answer(bench: &Bench) -> Result<Answer, String> {
     let mut source = Signal::new(samples, sample_rate_hz);
     let heard = heard_motor(&mut source, tone)?;
     let heard = heard.and_then(|heard| heard.model).map(|model| constants_of(&[model]));
-    Ok(Answer { is_room: bench.is_room, heard, truth_s: bench.time_constants_s })
+    let answer = Answer { is_room: bench.is_room, heard, truth_s: bench.time_constants_s };
+    if exam.is_listed {
+        answer.print(bench);
+    }
+    Ok(answer)
 }
 
 fn heard_motor(source: &mut Signal, tone: ToneConfig) -> Result<Option<HeardMotor>, String> {

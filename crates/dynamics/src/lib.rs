@@ -19,6 +19,7 @@ mod listening;
 mod load;
 mod motor;
 mod plateaus;
+mod room;
 mod search;
 mod series;
 mod static_map;
@@ -34,6 +35,7 @@ pub use listening::{
 };
 pub use load::LoadTerm;
 pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series};
+pub use room::*;
 pub use series::{CommandSeries, MotorSeries, command_of_speed};
 pub use static_map::{MapOrigin, MapPoint, StaticMap};
 pub use step::{MotorStep, StepVerdict};

@@ -33,8 +33,8 @@ pub use pipeline::{
     speed_from_survey, survey_from_passes,
 };
 pub use quick_track::{
-    PASSES_OF_QUICK_TRACK, QuickStretch, QuickTrack, SpeedPath, held_spans_from_passes, quick_track_along,
-    quick_track_from_passes,
+    PASSES_OF_QUICK_TRACK, PathWindow, QuickStretch, QuickTrack, SpeedPath, TurnFrame, TurnFrames,
+    held_spans_from_passes, quick_track_along, quick_track_from_passes, turn_frames_from_passes,
 };
 pub use ridge::{RidgeConfig, SpectrogramConfig};
 pub use rotors::RotorsConfig;

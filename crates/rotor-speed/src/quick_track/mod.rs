@@ -16,6 +16,7 @@ mod lines;
 mod offsets;
 mod path;
 mod piece;
+mod turn_frames;
 
 use crate::error::Error;
 use crate::tone::ToneConfig;
@@ -25,6 +26,7 @@ use lines::TrackedLines;
 pub use path::SpeedPath;
 use piece::{Approach, PieceListener};
 use std::ops::Range;
+pub use turn_frames::{PathWindow, TurnFrame, TurnFrames, turn_frames_from_passes};
 
 /// Passes of [`quick_track_from_passes`]. *Numeric.*
 pub const PASSES_OF_QUICK_TRACK: u32 = 2;

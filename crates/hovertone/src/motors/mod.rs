@@ -4,6 +4,8 @@
 //! so that the next track hears them in frames longer than the motor needs. What is left between sound and curves has its least squares where the
 //! likelihood of the sound is highest.
 
+mod room;
+
 use hovertone_analysis::{Method, NoTone, Outcome, SpeedAnalysis};
 use hovertone_dynamics::{
     CommandSeries, MotorConfig, MotorModel, MotorSeries, MotorStep, offset_of_commands, other_offset_of_commands,
@@ -13,6 +15,7 @@ use hovertone_rotor_speed::{
     quick_track_along, quick_track_from_passes, speed_from_passes,
 };
 use hovertone_signal::passes::Passes;
+use room::with_echoes;
 use std::ops::Range;
 
 pub use hovertone_dynamics::{MotorConstants, StaticMap, StepVerdict, constants_of, motor_from_series};
@@ -20,7 +23,7 @@ pub use hovertone_dynamics::{MotorConstants, StaticMap, StepVerdict, constants_o
 /// How often the track is made again along the curves. *Numeric.*
 const ROUNDS: u32 = 4;
 /// Passes of [`motor_from_sound`]. *Numeric.*
-pub const PASSES_OF_MOTOR: u32 = hovertone_rotor_speed::PASSES_OF_QUICK_TRACK + ROUNDS;
+pub const PASSES_OF_MOTOR: u32 = hovertone_rotor_speed::PASSES_OF_QUICK_TRACK + ROUNDS + room::ROUNDS as u32;
 /// Levels that are heard by themselves where the whole recording has no hover. *Decision.*
 const LEVELS_MAX: usize = 4;
 /// Step of the path along curves: fine against time constants. *Numeric.*
@@ -118,10 +121,13 @@ pub fn motor_from_sound(
         let Some(path) = path_of(&motor) else { break };
         motor = motor_of_track(&quick_track_along(passes, tone, speed_rev_s, span_s.clone(), &path)?);
     }
-    Ok(match commands {
-        Some(commands) => with_commands(motor, commands),
-        None => motor,
-    })
+    if let Some(commands) = commands {
+        motor = with_commands(motor, commands);
+    }
+    if let Some(model) = &mut motor.model {
+        with_echoes(passes, tone, speed_rev_s, &mut model.steps)?;
+    }
+    Ok(motor)
 }
 
 fn motor_of_track(track: &QuickTrack) -> HeardMotor {
