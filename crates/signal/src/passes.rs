@@ -104,10 +104,12 @@ impl<'a> Passes<'a> {
         self.planned += passes;
     }
 
-    /// Leaves these lines out of the sound in all later passes.
-    pub fn leave_out(&mut self, lines: SteadyLines) {
-        let filter = LineFilter::new(&lines, self.sample_rate_hz);
-        self.left_out = Some((lines, filter));
+    /// Leaves these lines, and no others, out of the sound in all later passes.
+    pub fn leave_out(&mut self, lines: Option<SteadyLines>) {
+        self.left_out = lines.map(|lines| {
+            let filter = LineFilter::new(&lines, self.sample_rate_hz);
+            (lines, filter)
+        });
     }
 
     /// The lines that are left out of the sound.

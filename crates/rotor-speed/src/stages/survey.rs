@@ -50,7 +50,7 @@ pub(crate) fn passes_of_survey() -> u32 {
     1
 }
 
-/// Surveys the span of the settings; where there is mains hum, again without it. The builder `beside` gets the samples of the first pass.
+/// Surveys the span of the settings; where there is mains hum, again without it, and so are all later passes. The builder `beside` gets the samples of the first pass.
 ///
 /// # Errors
 /// A source that fails.
@@ -59,8 +59,10 @@ pub(crate) fn survey_from_source(
     config: &Config,
     beside: Option<&mut RowsBuilder>,
 ) -> Result<Surveyed, Error> {
+    // an earlier survey may have been of another part
+    passes.leave_out(None);
     let (mut surveyed, hum) = survey_from_pass(passes, config, beside)?;
-    if let Some(hum) = hum.filter(|_| passes.left_out().is_none()) {
+    if hum.is_some() {
         passes.leave_out(hum);
         passes.expect_more(passes_of_survey());
         let rows_with_hum = std::mem::take(&mut surveyed.survey.rows);
