@@ -69,8 +69,8 @@ impl fmt::Display for NoTone {
                 write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; choose a longer part, or record a longer hover")
             }
             Self::Silence => f.write_str(
-                "the recording is silent; check the microphone, or choose another audio track or a single channel: two channels of \
-                opposite sign cancel each other",
+                "the recording is silent; check the microphone. If the file has several audio tracks or channels, choose one with \
+                --audio-track or --channel: two channels of opposite sign cancel each other",
             ),
             Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
                 match only_rev_s {

@@ -249,9 +249,7 @@ impl fmt::Display for Warning {
                 rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
-            Self::OtherRotorsHeard => {
-                f.write_str("one rotor alone should turn, as you said, but other rotors are heard too")
-            }
+            Self::OtherRotorsHeard => f.write_str("one rotor alone is expected, but other rotors are heard too"),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
                 "the sound contradicts the given facts: by the sound alone, the rotor has {blades} blades and turns at {speed_rev_s:.1} \

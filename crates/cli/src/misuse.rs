@@ -159,6 +159,10 @@ impl Misuse {
                 };
                 return Self { what, hint: Some(hint) };
             }
+            Some("vehicles") => {
+                let hint = Some("write `hovertone vehicles` alone".to_owned());
+                return Self { what: format!("\"{name}\": vehicles takes no name, and lists all of them"), hint };
+            }
             _ => {}
         }
         Self { what: format!("\"{name}\" has no place in this command"), hint: place_meant(name, words) }

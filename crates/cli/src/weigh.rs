@@ -42,6 +42,10 @@ struct Plan {
 /// What stands in place of a mass where no recording has a speed.
 const NO_MASS: &str = "no mass: no speed was heard\n";
 
+/// What stands above a mass that no one should use.
+const DOUBTFUL_MASS: &str =
+    "do not use this mass: the warnings say that the sound does not fit the rotors of this constant\n";
+
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let results =
@@ -67,6 +71,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     }
     let warnings: Vec<Notice> = weighed.iter().filter_map(WeighedHover::warning).map(|it| Notice::from(&it)).collect();
+    let is_doubtful = records.iter().any(SpeedRecord::is_doubtful);
     let about: Vec<&SpeedRecord> = records.iter().collect();
     terminal.warning_count(warnings.len());
     warnings.iter().for_each(|warning| terminal.warning(warning, ""));
@@ -75,9 +80,10 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         let document = weighed_json(weighed.as_ref(), &warnings, &records).map_err(Failure::internal)?;
         terminal.data(&document)?;
     } else {
-        terminal.text(&weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), weighed_text))?;
+        let text = weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), weighed_text);
+        terminal.text(&format!("{}{text}", if is_doubtful { DOUBTFUL_MASS } else { "" }))?;
     }
-    Ok(ending_of(&records))
+    Ok(ending_of(&records).max(if is_doubtful { Ending::Incomplete } else { Ending::Done }))
 }
 
 /// Refuses recordings of different loads: their mean mass is that of none.

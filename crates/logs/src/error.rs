@@ -117,7 +117,7 @@ pub enum LogError {
         format: LogFormat,
     },
     /// No signal of this name.
-    #[error("the log has no signal \"{name}\"; its tables are: {tables}")]
+    #[error("the log has no signal \"{name}\"{}", few_tables(tables))]
     NoSuchSignal {
         /// The name of the user.
         name: String,
@@ -132,6 +132,17 @@ pub enum LogError {
         /// A signal of another table.
         second: String,
     },
+}
+
+/// Largest number of tables that are listed in a message.
+const TABLES_LISTED_MAX: usize = 6;
+
+/// The tables of a log behind a message, where they are few.
+fn few_tables(tables: &str) -> String {
+    match tables.split(", ").count() {
+        1..=TABLES_LISTED_MAX => format!("; its tables are: {tables}"),
+        count => format!("; it has {count} tables"),
+    }
 }
 
 impl LogError {

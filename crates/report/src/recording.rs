@@ -5,7 +5,7 @@ use crate::number::significant;
 use crate::wording::Wording;
 use hovertone_analysis::{
     Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
-    SpeedAnalysis, SpeedEstimate, ToneFamily,
+    SpeedAnalysis, SpeedEstimate, ToneFamily, Warning,
 };
 use hovertone_vehicle::{BLADES_MAX, Order, THRUST_COEFFICIENT};
 use serde::Serialize;
@@ -117,6 +117,13 @@ impl SpeedRecord {
     /// The analysis, unless several speeds explain the sound.
     pub fn unambiguous_analysis(&self) -> Option<&SpeedAnalysis> {
         self.analysis().filter(|_| !self.is_ambiguous())
+    }
+
+    /// Whether the sound does not fit the rotors that were said: their tone is hardly heard, or another rotor fits far better. Nothing should be
+    /// built on such a speed.
+    pub fn is_doubtful(&self) -> bool {
+        let is_against = |warning: &Warning| warning.is_hardly_heard() || matches!(warning, Warning::FitsElsewhere(_));
+        self.unambiguous_analysis().is_some_and(|analysis| analysis.warnings.iter().any(is_against))
     }
 
     /// The tone of the rotor, if there is one.

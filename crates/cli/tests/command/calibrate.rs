@@ -290,5 +290,5 @@ fn a_silent_recording_is_said_to_be_silent() {
     let sound = folder.path().join("silence.wav");
     write_wav(&sound, &[0.0; 96_000], 24_000);
     let run = hovertone(&["calibrate", text(&sound), "--true-hz", "440"]).ends_with(3);
-    assert!(run.stderr.contains("silence.wav: the recording is silent; check the microphone"), "{}", run.stderr);
+    assert!(run.stderr.contains("silence.wav: the recording is silent; check the microphone."), "{}", run.stderr);
 }

@@ -27,7 +27,7 @@ fn a_recording_and_a_table_come_from_stdin() {
     for field in ["speed_rpm", "recording", "std_uncertainty_rev_s"] {
         assert_eq!(heard[0][field], named[0][field], "{field}");
     }
-    piped(&["tones", "-"], &sound).ends_with(0);
+    piped(&["tones", "--vehicle", "ardrone", "-"], &sound).ends_with(0);
     let picture = folder.path().join("x.png");
     piped(&["spectrogram", "--vehicle", "ardrone", "-", "-o", text(&picture)], &sound).ends_with(0);
     assert!(picture.exists());

@@ -203,7 +203,10 @@ fn what_is_wrong_in_a_word_is_named_with_what_to_write() {
             speed(&["--order", "2"]),
             &["order = 2 and blades = 3 exclude each other", "blades = 3 alone means order = 3"],
         ),
-        (speed(&["--log", "flight.csv"]), &["a log tells rotors apart, and needs their number", "--rotors 4"]),
+        (
+            speed(&["--log", "flight.csv"]),
+            &["to name rotors by --log, hovertone needs the number of rotors", "--rotors 4"],
+        ),
         (speed(&["--from", "1:70"]), &["below 60; if you mean 130 seconds, write 130"]),
         (speed(&["--from", "2s"]), &["a time has no unit; write 2 "]),
     ];

@@ -28,6 +28,8 @@ const SAME_POINTS: usize = 2;
 /// Smallest difference of the logarithms of two speeds that is a jump: rotors of one vehicle, and a rotor in a manoeuvre, stay within a quarter.
 /// *Decision.*
 const JUMP_MIN: f64 = 0.223;
+/// A comb that is slower by this factor is no voice beside a rotor: it has a line near any line of several rotors. *Decision.*
+const SLOWER_MAX: f64 = 0.25;
 /// Largest difference of the logarithms of the speeds of two rotors of one vehicle. *Decision.*
 pub(super) const ROTORS_APART: f64 = 0.14;
 
@@ -118,7 +120,7 @@ impl Search {
         let best = self.paths.iter().filter(is_family).max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
         let is_near = |shift: isize| {
             let ratio = shift as f64 * GRID_STEP;
-            OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < JUMP_MIN)
+            ratio < SLOWER_MAX.ln() || OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < JUMP_MIN)
         };
         Some(gain_of_jumps_nats(&self.votes, best, GRID_STEP, is_near))
     }
