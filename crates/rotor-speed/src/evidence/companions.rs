@@ -48,7 +48,8 @@ impl Companions {
     ///
     /// - `speeds_rev_s`: speed of the heard rotor in each short frame.
     ///
-    /// One propeller had up to 13 nats, several rotors 15 to 50 (`docs/measurements.md`). Rotors less than 1 % apart are not told.
+    /// Over the wide floor, one propeller had up to 13 nats, several rotors 15 to 50 (`docs/measurements.md`); the near floor has less for both.
+    /// Rotors less than 1 % apart are not told.
     pub(super) fn beside(
         looks: &Looks,
         speeds_rev_s: &[f64],
