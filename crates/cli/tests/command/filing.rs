@@ -137,7 +137,7 @@ fn a_vehicle_that_the_sound_contradicts_is_said_on_top() {
         assert!(verdict.contains(&format!("\nverdict: {says}")) && !constant.contains("verdict"), "{}", run.stdout);
         assert!(run.stderr.contains("the speed may come from another sound"), "{}", run.stderr);
     }
-    let weigh = ["weigh", &one, "--vehicle", "ardrone", "--constant-n-s2", "2.83e-6"];
+    let weigh = ["weigh", &one, "--vehicle", "ardrone", "--constant-n-s2", "2.83e-5"];
     let run = hovertone(&weigh).ends_with(3);
     assert!(run.stdout.starts_with("do not use this mass: "), "{}", run.stdout);
 }

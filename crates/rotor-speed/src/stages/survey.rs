@@ -50,7 +50,8 @@ pub(crate) fn passes_of_survey() -> u32 {
     1
 }
 
-/// Surveys the span of the settings; where there is mains hum, again without it, and so are all later passes. The builder `beside` gets the samples of the first pass.
+/// Surveys the span of the settings; where there is mains hum, again without it, and so are all later passes. The builder `beside` gets the
+/// samples of the first pass.
 ///
 /// # Errors
 /// A source that fails.
