@@ -48,8 +48,7 @@ impl Companions {
     ///
     /// - `speeds_rev_s`: speed of the heard rotor in each short frame.
     ///
-    /// Over the wide floor, one propeller had up to 13 nats, several rotors 15 to 50 (`docs/measurements.md`); the near floor has less for both.
-    /// Rotors less than 1 % apart are not told.
+    /// One propeller had up to 13 nats, several rotors 15 to 50 (`docs/measurements.md`). Rotors less than 1 % apart are not told.
     pub(super) fn beside(
         looks: &Looks,
         speeds_rev_s: &[f64],
@@ -58,11 +57,9 @@ impl Companions {
     ) -> Option<Self> {
         let table = VoteTable::of(&RotorLines::of_blades(propeller.blades));
         let heard_rev_s = path_in_long_frames(looks, speeds_rev_s, &table)?;
-        // an echo makes waves in the spectrum of noise, and their crests stand as lines over the wide floor
-        let long = looks.long.over_near_floor();
-        let found = companion(&long, &heard_rev_s, propeller);
+        let found = companion(&looks.long, &heard_rev_s, propeller);
         let nats_min = found.map_or(0.0, |found| found.nats.max(0.0)) + config.levels_nats_min;
-        Some(Self { found, excluded_from: excluded_from(&long, &heard_rev_s, propeller, nats_min) })
+        Some(Self { found, excluded_from: excluded_from(&looks.long, &heard_rev_s, propeller, nats_min) })
     }
 
     /// Whether another rotor is heard.

@@ -100,7 +100,7 @@ impl Excess {
     }
 
     /// The same frames over the near floor. An echo makes waves in the spectrum of noise; the wide floor leaves their crests as lines.
-    pub(crate) fn over_near_floor(&self) -> Self {
+    pub(super) fn over_near_floor(&self) -> Self {
         let over = |frame: &ExcessFrame| ExcessFrame {
             levels: levels_over(&frame.levels, &frame.near_floor, self.bin_hz),
             ..frame.clone()

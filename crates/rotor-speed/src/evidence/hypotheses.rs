@@ -113,6 +113,9 @@ fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> O
             look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
         })
         .collect();
+    if hypotheses.is_empty() {
+        return None;
+    }
     let hypotheses = with_beliefs(hypotheses);
     let better = again
         .as_mut()

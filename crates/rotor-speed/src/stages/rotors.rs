@@ -76,9 +76,8 @@ fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, 
     let Some(blades) = of_tone.or(config.tone.blades) else { return tracks };
     let nats_min = config.evidence.own_lines_nats_min;
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    // an echo makes waves in the spectrum of noise, and their crests stand as lines over the wide floor
-    let [short, long] = [&surveyed.looks.short, &surveyed.looks.long].map(|look| look.within(&hover.spans_s()));
-    let mut seen = [short, long.over_near_floor()].map(|look| SeenRotors::new(look, &tracks));
+    let mut seen = [&surveyed.looks.short, &surveyed.looks.long]
+        .map(|look| SeenRotors::new(look.within(&hover.spans_s()), &tracks));
     loop {
         let own_nats = |rotor: usize| {
             let nats = seen.iter().filter_map(|seen| seen.own_nats(rotor, &propeller));
