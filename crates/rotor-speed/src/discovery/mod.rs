@@ -93,7 +93,7 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     discovery.config.check()?;
     discovery.known.check()?;
     let mut detail = discovery.wants_all.then(|| {
-        let start_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
+        let start_s = config.span.start_s(passes.start_s());
         let window_s = discovery.config.detail_window_s;
         let rows =
             RowSettings { window_s, hop_s: window_s, row_s: DETAIL_FRAMES * window_s, rows_max: DETAIL_ROWS_MAX };

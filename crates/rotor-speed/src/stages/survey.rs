@@ -4,9 +4,8 @@ use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, EvidenceConfig, ExcessBuilder, Looks, RotorLines, WantedRotor, beliefs_from_looks};
-use crate::survey::{RowsBuilder, Survey, SurveyBuilder};
+use crate::survey::{HumFinder, RowsBuilder, Survey, SurveyBuilder};
 use hovertone_analysis::{NoTone, Span};
-use hovertone_signal::SteadyLines;
 use hovertone_signal::passes::{Passes, Piece};
 
 /// A survey of a recording, with the span that it covers.
@@ -58,29 +57,37 @@ pub(crate) fn passes_of_survey() -> u32 {
 pub(crate) fn survey_from_source(
     passes: &mut Passes<'_>,
     config: &Config,
-    beside: Option<&mut RowsBuilder>,
+    mut beside: Option<&mut RowsBuilder>,
 ) -> Result<Surveyed, Error> {
     // an earlier survey may have been of another part
     passes.leave_out(None);
-    let (mut surveyed, hum) = survey_from_pass(passes, config, beside)?;
+    let start_s = config.span.start_s(passes.start_s());
+    let mut finder = HumFinder::new(config.hover.survey(), passes.sample_rate_hz(), start_s);
+    let mut surveyed = survey_from_pass(passes, config, |samples| {
+        finder.push(samples);
+        if let Some(beside) = &mut beside {
+            beside.push(samples);
+        }
+    })?;
+    let hum = finder.finish(surveyed.end_s);
     if hum.is_some() {
-        passes.leave_out(hum);
+        passes.leave_out(hum.clone());
         passes.expect_more(passes_of_survey());
         let rows_with_hum = std::mem::take(&mut surveyed.survey.rows);
-        surveyed = survey_from_pass(passes, config, None)?.0;
+        surveyed = survey_from_pass(passes, config, |_| {})?;
         surveyed.survey.rows_with_hum = Some(rows_with_hum);
+        surveyed.survey.hum = hum;
     }
-    surveyed.survey.hum = passes.left_out().cloned();
     Ok(surveyed)
 }
 
-/// One pass: the survey, and the mains hum in it.
+/// One pass: the survey. `beside` gets the same samples.
 fn survey_from_pass(
     passes: &mut Passes<'_>,
     config: &Config,
-    mut beside: Option<&mut RowsBuilder>,
-) -> Result<(Surveyed, Option<SteadyLines>), Error> {
-    let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
+    mut beside: impl FnMut(&[f32]),
+) -> Result<Surveyed, Error> {
+    let mut from_s = config.span.start_s(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
     let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
     let hz_max = RotorLines::of_tone(&config.tone).hz_max();
@@ -90,13 +97,10 @@ fn survey_from_pass(
         Piece::Samples(samples) => {
             builder.push(samples);
             excess.push(samples);
-            if let Some(beside) = &mut beside {
-                beside.push(samples);
-            }
+            beside(samples);
         }
         Piece::Heard(_) => {}
     })?;
     let heard = Span { from_s, to_s: to_s.max(from_s) };
-    let (survey, hum) = builder.finish(to_s);
-    Ok((Surveyed { survey, heard, end_s: to_s, looks: excess.finish() }, hum))
+    Ok(Surveyed { survey: builder.finish(to_s), heard, end_s: to_s, looks: excess.finish() })
 }

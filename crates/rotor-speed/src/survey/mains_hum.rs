@@ -62,7 +62,7 @@ struct FineSpectrum<'a> {
 /// about a third of the lines missing. So a rotor at 180 Hz is no hum, because it has no lines at 60 and 120 Hz. The multiples of a rotor move
 /// together, by more than a grid does: the high ones show it.
 pub(crate) fn mains_hum(fine: &Rows, hz_max: f64) -> Option<SteadyLines> {
-    let power = fine.mean_power(|_| true)?;
+    let power = fine.mean_power()?;
     let spectrum = FineSpectrum { rows: fine, over_db: whitened_db(&power), power };
     GRIDS_HZ
         .into_iter()

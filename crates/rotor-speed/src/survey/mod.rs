@@ -11,7 +11,7 @@ use hovertone_analysis::NoTone;
 use hovertone_signal::SteadyLines;
 use hovertone_signal::line_frequency::SILENT_DB;
 use hovertone_signal::spectrogram::Decimator;
-pub(crate) use mains_hum::mains_hum;
+use mains_hum::mains_hum;
 use rows::mean_power;
 
 /// The recording in rows of equal length.
@@ -77,42 +77,53 @@ impl Default for SurveySettings {
 /// Builds a survey from a stream of samples.
 pub(crate) struct SurveyBuilder {
     coarse: RowsBuilder,
-    decimator: Decimator,
-    fine: RowsBuilder,
 }
 
 impl SurveyBuilder {
     pub(crate) fn new(settings: SurveySettings, sample_rate_hz: f64, start_s: f64) -> Self {
-        let decimator = Decimator::new(sample_rate_hz, settings.fine_hz_max);
-        let fine_start_s = start_s + decimator.delay_s();
         let coarse = RowSettings {
             window_s: settings.window_s,
             hop_s: settings.window_s / 2.0,
             row_s: settings.row_s,
             rows_max: settings.rows_max,
         };
+        Self { coarse: RowsBuilder::new(sample_rate_hz, start_s, coarse) }
+    }
+
+    pub(crate) fn push(&mut self, samples: &[f32]) {
+        self.coarse.push(samples);
+    }
+
+    pub(crate) fn finish(self, end_s: f64) -> Survey {
+        Survey::of_rows(self.coarse.finish(end_s))
+    }
+}
+
+/// Finds the mains hum in a stream of samples.
+pub(crate) struct HumFinder {
+    decimator: Decimator,
+    fine: RowsBuilder,
+}
+
+impl HumFinder {
+    pub(crate) fn new(settings: SurveySettings, sample_rate_hz: f64, start_s: f64) -> Self {
+        let decimator = Decimator::new(sample_rate_hz, settings.fine_hz_max);
         let fine = RowSettings {
             window_s: settings.fine_window_s,
             hop_s: settings.fine_window_s / 2.0,
             row_s: settings.fine_window_s,
             rows_max: settings.rows_max / 2,
         };
-        Self {
-            coarse: RowsBuilder::new(sample_rate_hz, start_s, coarse),
-            fine: RowsBuilder::new(decimator.rate_hz(), fine_start_s, fine),
-            decimator,
-        }
+        Self { fine: RowsBuilder::new(decimator.rate_hz(), start_s + decimator.delay_s(), fine), decimator }
     }
 
     pub(crate) fn push(&mut self, samples: &[f32]) {
-        self.coarse.push(samples);
         self.fine.push(self.decimator.push(samples));
     }
 
-    /// The survey, and the mains hum in it.
-    pub(crate) fn finish(self, end_s: f64) -> (Survey, Option<SteadyLines>) {
-        let hum = mains_hum(&self.fine.finish(end_s), self.decimator.hz_max());
-        (Survey::of_rows(self.coarse.finish(end_s)), hum)
+    /// `None` where there is no hum.
+    pub(crate) fn finish(self, end_s: f64) -> Option<SteadyLines> {
+        mains_hum(&self.fine.finish(end_s), self.decimator.hz_max())
     }
 }
 
@@ -128,19 +139,19 @@ mod tests {
             let block: Vec<f32> = (0..1000).map(|n| level * ((n as f32) * 1.3).sin()).collect();
             block.chunks(100).for_each(|samples| builder.push(samples));
         }
-        builder.finish(2.0 + seconds as f64).0
+        builder.finish(2.0 + seconds as f64)
     }
 
     /// Rounded to 16 bits, a pure tone has lines at multiples of 20 Hz. Below the rounding noise they are no hum.
     #[test]
     fn the_rounding_of_a_pure_tone_is_no_hum() {
         for hz in [440.0, 880.0, 1000.0, 2000.0] {
-            let mut builder = SurveyBuilder::new(SurveySettings::default(), 44_100.0, 0.0);
+            let mut finder = HumFinder::new(SurveySettings::default(), 44_100.0, 0.0);
             let turns = |n: u32| (hz * f64::from(n) / 44_100.0).fract();
             let sine = |n: u32| ((4095.0 * (std::f64::consts::TAU * turns(n)).sin()).round() / 32_768.0) as f32;
             let samples: Vec<f32> = (0..10 * 44_100).map(sine).collect();
-            samples.chunks(4096).for_each(|samples| builder.push(samples));
-            assert_eq!(builder.finish(10.0).1, None, "{hz}");
+            samples.chunks(4096).for_each(|samples| finder.push(samples));
+            assert_eq!(finder.finish(10.0), None, "{hz}");
         }
     }
 

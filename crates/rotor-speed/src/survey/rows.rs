@@ -34,9 +34,9 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Mean power spectrum of the wanted rows. `None` where no row is wanted.
-    pub(crate) fn mean_power(&self, is_wanted: impl Fn(&Row) -> bool) -> Option<Vec<f64>> {
-        mean_power(self.rows.iter().filter(|row| is_wanted(row)))
+    /// Mean power spectrum of all rows. `None` without rows.
+    pub(crate) fn mean_power(&self) -> Option<Vec<f64>> {
+        mean_power(self.rows.iter())
     }
 }
 

@@ -19,6 +19,11 @@ impl SpanConfig {
         self.from_s.is_some() || self.to_s.is_some()
     }
 
+    /// Where the part begins in a recording that starts at `start_s`.
+    pub(crate) fn start_s(&self, start_s: f64) -> f64 {
+        self.from_s.unwrap_or(f64::MIN).max(start_s)
+    }
+
     /// Refuses an end at or before the start.
     ///
     /// # Errors

@@ -190,7 +190,7 @@ mod tests {
             .collect();
         let mut builder = SurveyBuilder::new(SurveySettings::default(), rate, 0.0);
         builder.push(&samples);
-        CombMap::from_survey(&builder.finish(3.0).0, tone, &(15.0..=280.0))
+        CombMap::from_survey(&builder.finish(3.0), tone, &(15.0..=280.0))
     }
 
     /// Error of the speed of all rows near the true one, as a share.
