@@ -133,7 +133,7 @@ fn what_means_nothing_is_refused_by_name() {
         ("height_m = 650.0", "model = \"iris.sdf\"", "vehicle.model"),
         ("added_mass_kg = 0.031", "added_mass_kg = 31.0", "masses are in kg"),
         ("added_mass_kg = 0.031", "from_s = -5.0", "from_s"),
-        ("added_mass_kg = 0.031", "from_s = 5.0\nto_s = 4.0", "span"),
+        ("added_mass_kg = 0.031", "from_s = 5.0\nto_s = 4.0", "later to_s"),
         ("latitude_deg = -20.76", "latitude_deg = 0.0\ngear = { pinion = 69, wheel = 8 }", "swapped"),
         ("[\"small_hull/*.mov\"]", "[]", "recordings"),
         ("latitude_deg = -20.76", "latitude_deg = 0.0\nblades = 3", "blades = 3"),
