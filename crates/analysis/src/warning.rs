@@ -90,8 +90,11 @@ pub enum Warning {
         /// Standard deviation of the speeds of the others about their mean, as a share, that the ± contains.
         spread_share: f64,
     },
-    /// Another rotor of the vehicle is heard, at a speed of its own, where one alone is said to turn.
-    OtherRotorsHeard,
+    /// Another rotor of the vehicle is heard, at a speed of its own, beside as many as are said to turn.
+    OtherRotorsHeard {
+        /// The number of rotors that are said to turn.
+        expected: u32,
+    },
     /// The lines are far more probable for a rotor that something known leaves out.
     FitsElsewhere(OtherRotor),
     /// The ridge jumps between lines.
@@ -124,7 +127,7 @@ impl Warning {
             | Self::OtherSteadySpeed { .. }
             | Self::HoversDiffer { .. }
             | Self::HoverShorterThanSample { .. }
-            | Self::OtherRotorsHeard
+            | Self::OtherRotorsHeard { .. }
             | Self::FitsElsewhere(_)
             | Self::ManyGaps { .. } => false,
         }
@@ -174,8 +177,11 @@ impl Warning {
             Self::RotorCountUnknown { .. } => {
                 "give the number of rotors with --rotors: for one rotor alone, the ± is smaller"
             }
-            Self::OtherRotorsHeard => {
+            Self::OtherRotorsHeard { expected: 1 } => {
                 "if several rotors turn, leave --rotors 1 out; if not, record away from other machines"
+            }
+            Self::OtherRotorsHeard { .. } => {
+                "if more rotors turn, give their number with --rotors; if not, record away from other machines"
             }
             Self::FitsElsewhere(_) => "check these facts: the vehicle, the blades, the diameter, the mass or the band",
             Self::SeveralLines { .. } => {
@@ -249,7 +255,12 @@ impl fmt::Display for Warning {
                 rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
-            Self::OtherRotorsHeard => f.write_str("one rotor alone is expected, but other rotors are heard too"),
+            Self::OtherRotorsHeard { expected: 1 } => {
+                f.write_str("one rotor alone is expected, but other rotors are heard too")
+            }
+            Self::OtherRotorsHeard { expected } => {
+                write!(f, "{expected} rotors are expected, but another rotor is heard beside them")
+            }
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
                 "the sound contradicts the given facts: by the sound alone, the rotor has {blades} blades and turns at {speed_rev_s:.1} \

@@ -34,7 +34,8 @@ mod tests {
             Warning::FewFrames { frame_count: 3, sample_s: 0.2, needed_s: Some(0.8) },
             Warning::FewFrames { frame_count: 3, sample_s: 5.0, needed_s: None },
             apart,
-            Warning::OtherRotorsHeard,
+            Warning::OtherRotorsHeard { expected: 1 },
+            Warning::OtherRotorsHeard { expected: 3 },
             Warning::SeveralLines { spread_share: 0.02 },
         ];
         let reasons = [

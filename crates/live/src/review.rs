@@ -111,7 +111,9 @@ pub(crate) fn review(sound: &mut Signal, config: &LiveConfig) -> Result<Reviewed
             let alternatives = if alternatives.is_empty() { own } else { alternatives };
             match HeardRotors::of(tone, hover.segments, &alternatives, config) {
                 Some(heard) => {
-                    warnings.retain(|warning| matches!(warning, Warning::FitsElsewhere(_) | Warning::OtherRotorsHeard));
+                    warnings.retain(|warning| {
+                        matches!(warning, Warning::FitsElsewhere(_) | Warning::OtherRotorsHeard { .. })
+                    });
                     Reviewed::Heard(Box::new(HeardRotors { doubts: warnings, ..heard }))
                 }
                 None => Reviewed::NotHeard(NoTone::NoHover),

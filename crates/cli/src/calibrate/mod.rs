@@ -208,7 +208,7 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
 
 /// Whether other rotors are heard beside the one that is measured.
 fn hears_several(analysis: &SpeedAnalysis) -> bool {
-    analysis.warnings.contains(&Warning::OtherRotorsHeard)
+    analysis.warnings.iter().any(|warning| matches!(warning, Warning::OtherRotorsHeard { .. }))
 }
 
 /// The frequency of a line, as the speed of a shaft with one line per turn.

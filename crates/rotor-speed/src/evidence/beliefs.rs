@@ -19,6 +19,8 @@ pub(crate) struct Beliefs {
     pub(crate) is_faint: bool,
     /// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one.
     pub(crate) better: Option<OtherRotor>,
+    /// The frames that tell the beliefs, where a voice was left out of them.
+    pub(super) without_voice: Option<Looks>,
 }
 
 impl Beliefs {
@@ -35,7 +37,7 @@ impl Beliefs {
             return Some(Companions::UNHEARD);
         }
         let propeller = OwnPropeller { blades: first.lines.blades?, prior: &config.levels };
-        Companions::beside(looks, &first.speeds_rev_s, &propeller, config)
+        Companions::beside(self.without_voice.as_ref().unwrap_or(looks), &first.speeds_rev_s, &propeller, config)
     }
 
     /// The same, where all hypotheses with one speed are one: the most probable of them, with the belief in all.

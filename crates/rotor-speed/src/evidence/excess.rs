@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Length of a short frame, s. Most rotors in flight are clearest in 0.1 s: their speeds wander by 1 to 3 %. *Decision.*
 const SHORT_S: f64 = 0.1;
 /// Length of a long frame, s. Steady rotors, and several at once, are clearest in 0.4 s. *Decision.*
-const LONG_S: f64 = 0.4;
+pub(super) const LONG_S: f64 = 0.4;
 /// Step between short frames, s. *Numeric.*
 const HOP_S: f64 = 0.05;
 /// Steps between short frames to a step between long ones. *Numeric.*
@@ -36,6 +36,10 @@ const SIDE_LOBE_MARGIN: f64 = 2.0;
 const QUIET_SHARE: f64 = 0.01;
 /// Shortest rest between two flights, s. *Decision.*
 const REST_S_MIN: f64 = 3.0;
+/// Share of the frames around that are the quieter ones. *Decision.*
+const QUIET_FRAMES_SHARE: f64 = 0.33;
+/// Time to either side of a frame that is around it, s: a breath of a voice. *Decision.*
+const AROUND_S: f64 = 1.5;
 /// Length of a section, s: long recordings are heard in sections with gaps between. *Numeric.*
 const SECTION_S: f64 = 1.0;
 /// Largest number of sections. *Numeric.*
@@ -93,10 +97,15 @@ impl Excess {
 impl Excess {
     /// The frames whose middle is in one of these spans of time.
     pub(crate) fn within(&self, spans_s: &[Range<f64>]) -> Self {
-        let is_within = |frame: &&ExcessFrame| spans_s.iter().any(|span_s| span_s.contains(&frame.centre_s));
-        let frames = self.frames.iter().filter(is_within).cloned().collect();
+        let is_within = |frame: &ExcessFrame| spans_s.iter().any(|span_s| span_s.contains(&frame.centre_s));
+        self.with_levels(|frame| is_within(frame).then(|| Arc::clone(&frame.levels)))
+    }
+
+    /// The frames for which there are levels, with these levels.
+    pub(super) fn with_levels(&self, levels_of: impl Fn(&ExcessFrame) -> Option<Arc<[Level]>>) -> Self {
+        let with = |frame: &ExcessFrame| Some(ExcessFrame { levels: levels_of(frame)?, ..frame.clone() });
         let [floor, near_floor] = [&self.floor, &self.near_floor].map(Arc::clone);
-        Self { bin_hz: self.bin_hz, frames, floor, near_floor }
+        Self { bin_hz: self.bin_hz, frames: self.frames.iter().filter_map(with).collect(), floor, near_floor }
     }
 
     /// The same frames over the near floor. An echo makes waves in the spectrum of noise; the wide floor leaves their crests as lines.
@@ -108,6 +117,17 @@ impl Excess {
         let frames = self.frames.iter().map(over).collect();
         let [floor, near_floor] = [&self.near_floor; 2].map(Arc::clone);
         Self { bin_hz: self.bin_hz, frames, floor, near_floor }
+    }
+
+    /// Whether each frame is one of the quieter ones around it. What pauses, as a voice does between its words, is not in these.
+    pub(super) fn quiet_frames(&self) -> Vec<bool> {
+        let is_quiet = |frame: &ExcessFrame| {
+            let from = self.frames.partition_point(|other| other.centre_s < frame.centre_s - AROUND_S);
+            let to = self.frames.partition_point(|other| other.centre_s <= frame.centre_s + AROUND_S);
+            let quieter = self.frames[from..to].iter().filter(|other| other.mean_power < frame.mean_power).count();
+            (quieter as f64) < QUIET_FRAMES_SHARE * (to - from) as f64
+        };
+        self.frames.iter().map(is_quiet).collect()
     }
 
     /// Resolution of a frame, Hz.
@@ -123,6 +143,11 @@ impl Excess {
 }
 
 impl ExcessFrame {
+    /// Whether the band has a line at a frequency, where bins are `bin_hz` apart.
+    pub(super) fn holds(&self, hz: f64, bin_hz: f64) -> bool {
+        ((hz / bin_hz + 0.5) as usize) + 2 <= self.levels.len()
+    }
+
     /// The highest level within a bin of a frequency, where bins are `bin_hz` apart. `None` outside the band, and where lines are left out of the
     /// sound.
     pub(super) fn level_near(&self, hz: f64, bin_hz: f64) -> Option<Level> {

@@ -25,6 +25,9 @@ const HOVER_WIDTH_SHARE: f64 = 0.024;
 pub(super) const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
+/// Voices and instruments at a time that are told from a rotor. *Decision.*
+const VOICES_MAX: u32 = 2;
+
 /// One shaft speed, with a number of blades.
 #[derive(Clone, Debug)]
 pub(crate) struct Hypothesis {
@@ -42,6 +45,8 @@ pub(crate) struct Hypothesis {
     factor: f64,
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
+    /// The same over the quieter frames, in which a voice pauses.
+    pub(super) quiet_votes_nats: f64,
     /// Evidence of the levels of its lines, in nats: the mean of the looks. They are at the same lines, so that several tell no more than one.
     pub(super) levels_nats: f64,
     /// The same, with what is known of the vehicle.
@@ -90,49 +95,79 @@ pub(crate) struct WantedPropeller {
     pub(crate) speeds_rev_s: RangeInclusive<f64>,
 }
 
-/// Compares the hypotheses in two looks at the same sound, in long frames alone where short ones hear no rotor: a faint, steady one. `None` where
-/// no rotor is heard.
+/// Compares the hypotheses in two looks at the same sound: without a voice, where one sounds; in long frames alone, where short ones hear no rotor:
+/// a faint, steady one. `None` where no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    beliefs_of(looks, wanted, config).or_else(|| {
+    beliefs_beside_voices(looks, wanted, config).or_else(|| {
         let of_long_frames = Looks { short: looks.long.clone(), long: looks.long.clone() };
         let of_any_votes = EvidenceConfig { votes_nats_min: f64::MIN, ..*config };
-        Some(Beliefs { is_faint: true, ..beliefs_of(&of_long_frames, wanted, &of_any_votes)? })
+        match beliefs_of(&of_long_frames, wanted, &of_any_votes)? {
+            Heard::Rotor(beliefs) => Some(Beliefs { is_faint: true, ..beliefs }),
+            Heard::Voice(_) => None,
+        }
     })
 }
 
-fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
+/// What sounds in some frames.
+enum Heard {
+    Rotor(Beliefs),
+    /// A voice, and the frames in which it sounds, without its lines.
+    Voice(Looks),
+}
+
+/// The beliefs in the sound without the voices that are heard in it.
+fn beliefs_beside_voices(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
+    let mut without_voice: Option<Looks> = None;
+    for _ in 0..=VOICES_MAX {
+        match beliefs_of(without_voice.as_ref().unwrap_or(looks), wanted, config)? {
+            Heard::Rotor(beliefs) => return Some(Beliefs { without_voice, ..beliefs }),
+            Heard::Voice(without) => without_voice = Some(without),
+        }
+    }
+    None
+}
+
+/// What sounds in these frames. `None` where neither a rotor nor a voice is heard.
+fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Heard> {
     let Look { noise, mut of_propellers, mut model } = look_at(&looks.short, wanted, config)?;
     let mut again = look_again(looks, &mut of_propellers, config);
     let mut presence = Presence::new(noise, again.as_ref().map(|(noise, _)| *noise), &config.levels);
     let is_possible = |look: &OfPropeller| wanted.may_be_slow || is_resolved(&look.hypotheses);
     let heard =
         of_propellers.into_iter().filter(|look| is_possible(look) && presence.is_heard(&look.hypotheses, config));
-    let hypotheses: Vec<Hypothesis> = heard
-        .filter(|look| !is_tune(look, &looks.short, config))
-        .flat_map(|look| {
-            look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
-        })
-        .collect();
+    let mut hypotheses: Vec<Hypothesis> = Vec::new();
+    let mut loudest: Option<(f64, Looks)> = None;
+    for look in heard {
+        match voice_beside(&look, looks, config) {
+            Some(voice) => loudest = loudest.filter(|(nats, _)| *nats >= voice.0).or(Some(voice)),
+            None => hypotheses
+                .extend(look.hypotheses.into_iter().map(|it| Hypothesis { nats: it.nats + look.share_nats, ..it })),
+        }
+    }
     if hypotheses.is_empty() {
-        return None;
+        return loudest.map(|(_, without)| Heard::Voice(without));
     }
     let hypotheses = with_beliefs(hypotheses);
     let better = again
         .as_mut()
         .and_then(|(_, long)| better_elsewhere(hypotheses.first()?, looks, wanted, [&mut model, long], config));
-    Some(Beliefs { hypotheses, noise, is_faint: false, better })
+    Some(Heard::Rotor(Beliefs { hypotheses, noise, is_faint: false, better, without_voice: None }))
 }
 
-/// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
-fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool {
-    let Some(first) = look.hypotheses.first() else { return true };
-    let jumps_nats = match &look.search {
-        Some(search) => search.jumps_nats(first.speed_rev_s),
+/// What a voice or an instrument has more than the most probable hypothesis, in nats a frame, where it explains the frames far better; with the
+/// frames in which it sounds, without its lines.
+fn voice_beside(look: &OfPropeller, looks: &Looks, config: &EvidenceConfig) -> Option<(f64, Looks)> {
+    let first = look.hypotheses.first()?;
+    let searched;
+    let search = match &look.search {
+        Some(search) => search,
         None => {
-            Search::of(short, &look.lines, &look.speeds_rev_s).and_then(|search| search.jumps_nats(first.speed_rev_s))
+            searched = Search::of(&looks.short, &look.lines, &look.speeds_rev_s)?;
+            &searched
         }
     };
-    jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
+    let voice = search.voice_beside(first.speed_rev_s).filter(|voice| voice.gain_nats >= config.jumps_nats_max)?;
+    Some((voice.gain_nats, voice.left_out_of(looks, |point| search.speed_rev_s(point))))
 }
 
 /// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames over the near
@@ -270,7 +305,7 @@ fn hypothesis_of(
     excess: &Excess,
     model: &mut LevelModel<'_>,
 ) -> Option<Hypothesis> {
-    let &Multiple { path, factor, votes_nats, speed_rev_s, ref speeds_rev_s } = multiple;
+    let &Multiple { path, factor, votes_nats, quiet_votes_nats, speed_rev_s, ref speeds_rev_s } = multiple;
     let levels = levels_of_lines(excess, speeds_rev_s, lines);
     let levels_nats = model.evidence_nats(&levels, lines);
     Some(Hypothesis {
@@ -281,6 +316,7 @@ fn hypothesis_of(
         path,
         factor,
         votes_nats,
+        quiet_votes_nats,
         levels_nats,
         nats: 0.0,
         levels,
@@ -358,6 +394,7 @@ mod tests {
             path,
             factor: 1.0,
             votes_nats,
+            quiet_votes_nats: votes_nats,
             levels_nats: 0.0,
             nats: 0.0,
             levels: RotorLevels::default(),

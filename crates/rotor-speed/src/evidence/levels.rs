@@ -10,6 +10,8 @@ use hovertone_vehicle::LineLevels;
 
 /// Share of frames in which a line must be inside the band. *Decision.*
 const INSIDE_SHARE_MIN: f64 = 0.8;
+/// Share of frames in which its level must be known: lines of hum or of a voice may be left out. *Decision.*
+const KNOWN_SHARE_MIN: f64 = 0.5;
 /// Lowest frequency of a line, Hz: handling and wind are below. *Decision.*
 pub(super) const LINE_HZ_MIN: f64 = 25.0;
 /// Fractions of an order at which no rotor on this path, nor one at twice or half its speed, has a line. *Decision.*
@@ -24,21 +26,24 @@ const LINE_STDS: f64 = 3.0;
 const NOISE_STD_DB: std::ops::RangeInclusive<f64> = 1.0..=2.0;
 
 /// Level along the path at an order, dB over the floor: the mean over the frames of the highest level within a bin. Lines of something else
-/// that cross the path for a moment count little. `None` outside the band.
+/// that cross the path for a moment count little. `None` outside the band, and where it is known in few frames.
 pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Option<f64> {
-    let (mut sum, mut count) = (0u32, 0u32);
+    let (mut sum, mut count, mut inside) = (0u32, 0u32, 0u32);
     let mut hz_sum = 0.0;
     for (frame, speed_rev_s) in excess.frames.iter().zip(speeds_rev_s) {
         let hz = order * speed_rev_s;
         hz_sum += hz;
+        inside += u32::from(frame.holds(hz, excess.bin_hz));
         if let Some(level) = frame.level_near(hz, excess.bin_hz) {
             sum += u32::from(level);
             count += 1;
         }
     }
     let frames = excess.frames.len() as f64;
-    let is_inside = count > 0 && f64::from(count) >= INSIDE_SHARE_MIN * frames;
-    (is_inside && hz_sum >= LINE_HZ_MIN * frames).then(|| level_table::level_db(f64::from(sum) / f64::from(count)))
+    let is_inside = f64::from(inside) >= INSIDE_SHARE_MIN * frames;
+    let is_known = count > 0 && f64::from(count) >= KNOWN_SHARE_MIN * frames;
+    (is_inside && is_known && hz_sum >= LINE_HZ_MIN * frames)
+        .then(|| level_table::level_db(f64::from(sum) / f64::from(count)))
 }
 
 /// Levels of all lines that are compared, along a path. Orders near those of a gear mesh belong to the mesh and its sidebands.

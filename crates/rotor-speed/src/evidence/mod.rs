@@ -49,6 +49,7 @@ mod rounding;
 mod search;
 mod second_look;
 mod settings;
+mod voice;
 mod votes;
 
 pub(crate) use beliefs::Beliefs;

@@ -1,4 +1,4 @@
-//! The path of shaft speeds with the most votes, and what a path that may jump has more.
+//! The path of shaft speeds with the most votes.
 
 use std::ops::Range;
 
@@ -46,7 +46,7 @@ pub(super) fn best_path(votes: &[Vec<f32>], range: Range<usize>, hops: &[usize],
 }
 
 /// Raises the sums to those that are reached by a step of so many points, up or down, at a cost.
-fn reach_by_step(next: &mut [f32], sums: &[f32], step: usize, cost: f32) {
+pub(super) fn reach_by_step(next: &mut [f32], sums: &[f32], step: usize, cost: f32) {
     next[step..].iter_mut().zip(sums).for_each(|(to, from)| *to = larger(*to, from - cost));
     next.iter_mut().zip(&sums[step..]).for_each(|(to, from)| *to = larger(*to, from - cost));
 }
@@ -57,67 +57,18 @@ fn larger(a: f32, b: f32) -> f32 {
 }
 
 /// Largest step of a path over so many hops, in points of the grid.
-fn reach_points(hops: usize, grid_step: f64) -> usize {
+pub(super) fn reach_points(hops: usize, grid_step: f64) -> usize {
     (STEP_MAX * hops.min(GAP_HOPS_MAX) as f64 / grid_step).round().max(1.0) as usize
 }
 
 /// Cost of a step of a path that reaches so many points.
-fn step_nats(step: usize, reach: usize) -> f32 {
+pub(super) fn step_nats(step: usize, reach: usize) -> f32 {
     STEP_NATS * (step as f32 / reach as f32).powi(2)
-}
-
-/// Cost of a jump to a speed that a motor cannot reach, in nats. *Decision.*
-const JUMP_NATS: f32 = 8.0;
-
-/// Votes that a voice or an instrument has more than a rotor on this path, in nats, as a mean over the frames: it moves as a motor does for some
-/// time, and then it jumps to another speed. A speed near that of the rotor, where `is_near(shift)` of the shift in points of the grid holds,
-/// is that of another rotor or of an octave, and no jump.
-pub(super) fn gain_of_jumps_nats(
-    votes: &[Vec<f32>],
-    path: &[usize],
-    grid_step: f64,
-    is_near: impl Fn(isize) -> bool,
-) -> f64 {
-    let points = votes.first().map_or(0, Vec::len);
-    let reach = reach_points(1, grid_step);
-    // votes over those of the path: on the path none
-    let mut on_path = 0.0f32;
-    let mut elsewhere = vec![f32::MIN; points];
-    let mut moved = vec![0.0; points];
-    for (votes, &at) in votes.iter().zip(path) {
-        let best = elsewhere.iter().copied().fold(on_path, f32::max) - JUMP_NATS;
-        moved.fill(best);
-        for step in 0..=reach.min(points - 1) {
-            reach_by_step(&mut moved, &elsewhere, step, step_nats(step, reach));
-        }
-        for (to, (moved, vote)) in moved.iter_mut().zip(votes).enumerate() {
-            *moved = if is_near(to as isize - at as isize) { f32::MIN } else { *moved + vote - votes[at] };
-        }
-        on_path = on_path.max(best);
-        std::mem::swap(&mut elsewhere, &mut moved);
-    }
-    f64::from(elsewhere.into_iter().fold(on_path, f32::max)) / path.len().max(1) as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_tune_gains_by_its_jumps_and_a_rotor_does_not() {
-        let (frames, points) = (200, 100);
-        let votes = |at: fn(usize) -> usize| -> Vec<Vec<f32>> {
-            (0..frames).map(|n| (0..points).map(|point| if point == at(n) { 20.0 } else { -5.0 }).collect()).collect()
-        };
-        let path = vec![20; frames];
-        let is_near = |shift: isize| shift.abs() < 10;
-        assert_eq!(gain_of_jumps_nats(&votes(|_| 20), &path, STEP_MAX, is_near), 0.0);
-        // away for half of the time, in ten stays of ten frames: 25 nats in each of these frames, less twenty jumps
-        let tune = votes(|n| if n / 10 % 2 == 0 { 20 } else { 60 });
-        let gain = gain_of_jumps_nats(&tune, &path, STEP_MAX, is_near);
-        let expected = 0.5 * 25.0 - 8.0 * 19.0 / 200.0;
-        assert!((gain - expected).abs() < 1e-3, "{gain} {expected}");
-    }
 
     #[test]
     fn the_best_path_is_that_of_all_paths() {

@@ -1,8 +1,9 @@
 //! The speeds with the most votes: a path in each window of speeds, and its multiples.
 
 use super::excess::Excess;
-use super::path::{best_path, gain_of_jumps_nats};
+use super::path::best_path;
 use super::rotor_lines::RotorLines;
+use super::voice::Voice;
 use super::votes::{VotePlaces, VoteTable, votes_of_frames};
 use hovertone_signal::statistics::{mean, median};
 use std::ops::{Range, RangeInclusive};
@@ -40,6 +41,8 @@ pub(super) struct Search {
     votes: Vec<Vec<f32>>,
     /// The best path in each window of speeds.
     paths: Vec<Vec<usize>>,
+    /// Whether each frame is one of the quieter ones.
+    quiet_frames: Vec<bool>,
 }
 
 /// A path with all speeds multiplied by a factor.
@@ -53,6 +56,8 @@ pub(super) struct Multiple {
     pub(super) speed_rev_s: f64,
     /// Median over the frames of the votes for it, in nats.
     pub(super) votes_nats: f64,
+    /// The same over the quieter frames.
+    pub(super) quiet_votes_nats: f64,
 }
 
 impl Search {
@@ -70,7 +75,7 @@ impl Search {
         if paths.iter().any(|path| !grid.is_at_end(path)) {
             paths.retain(|path| !grid.is_at_end(path));
         }
-        Some(Self { grid, votes, paths })
+        Some(Self { grid, votes, paths, quiet_frames: excess.quiet_frames() })
     }
 
     /// The speeds along the best path of each window.
@@ -89,11 +94,7 @@ impl Search {
                 if found.iter().any(|(other, _)| is_same_path(other, &points)) {
                     continue;
                 }
-                if let Some(votes_nats) = median(&self.votes_along(&points)) {
-                    let speeds_rev_s = self.grid.speeds_of(&points);
-                    let Some(speed_rev_s) = mean(&speeds_rev_s) else { continue };
-                    found.push((points, Multiple { path, factor, speeds_rev_s, speed_rev_s, votes_nats }));
-                }
+                found.extend(self.multiple(path, factor, &points).map(|multiple| (points, multiple)));
             }
         }
         let most = found.iter().max_by(|(_, a), (_, b)| a.votes_nats.total_cmp(&b.votes_nats));
@@ -107,13 +108,34 @@ impl Search {
         found.iter().filter(|(_, it)| is_left(it)).map(|(_, it)| it.clone()).collect()
     }
 
+    /// A multiple of a path, which runs along these points. `None` without frames.
+    fn multiple(&self, path: usize, factor: f64, points: &[usize]) -> Option<Multiple> {
+        let votes = self.votes_along(points);
+        let quiet: Vec<f64> =
+            votes.iter().zip(&self.quiet_frames).filter(|(_, is_quiet)| **is_quiet).map(|(votes, _)| *votes).collect();
+        let speeds_rev_s = self.grid.speeds_of(points);
+        Some(Multiple {
+            path,
+            factor,
+            speed_rev_s: mean(&speeds_rev_s)?,
+            speeds_rev_s,
+            votes_nats: median(&votes)?,
+            quiet_votes_nats: median(&quiet)?,
+        })
+    }
+
+    /// The speed at a point of the grid.
+    pub(super) fn speed_rev_s(&self, point: usize) -> f64 {
+        self.grid.speeds_rev_s[point]
+    }
+
     fn votes_along(&self, path: &[usize]) -> Vec<f64> {
         path.iter().zip(&self.votes).map(|(&point, votes)| f64::from(votes[point])).collect()
     }
 
-    /// Votes that a voice or an instrument, which jumps, has more than a rotor near this speed or at one of its octaves and families, in nats a
-    /// frame. `None` without such a path.
-    pub(super) fn jumps_nats(&self, speed_rev_s: f64) -> Option<f64> {
+    /// What a voice or an instrument, which jumps, explains beside a rotor near this speed or at one of its octaves and families. `None` without
+    /// such a path.
+    pub(super) fn voice_beside(&self, speed_rev_s: f64) -> Option<Voice> {
         let mean_rev_s = |path: &[usize]| mean(&self.grid.speeds_of(path));
         let is_family = |path: &&Vec<usize>| mean_rev_s(path).is_some_and(|of_rev_s| is_family(of_rev_s, speed_rev_s));
         let sum = |path: &[usize]| self.votes_along(path).into_iter().sum::<f64>();
@@ -122,7 +144,7 @@ impl Search {
             let ratio = shift as f64 * GRID_STEP;
             ratio < SLOWER_MAX.ln() || OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < JUMP_MIN)
         };
-        Some(gain_of_jumps_nats(&self.votes, best, GRID_STEP, is_near))
+        Some(Voice::beside(&self.votes, best, GRID_STEP, is_near))
     }
 }
 

@@ -114,7 +114,7 @@ impl Candidates {
     /// What the lines say against what is known.
     pub(crate) fn warnings(&self, config: &Config) -> impl Iterator<Item = Warning> {
         let is_one = config.rotors.is_count_known && config.rotors.count == 1;
-        let others = (is_one && self.are_others_heard(config)).then_some(Warning::OtherRotorsHeard);
+        let others = (is_one && self.are_others_heard(config)).then_some(Warning::OtherRotorsHeard { expected: 1 });
         self.better.map(Warning::FitsElsewhere).into_iter().chain(others)
     }
 

@@ -8,7 +8,7 @@ use crate::detection::{no_series, not_held_reason, or_mains_hum};
 use crate::evidence::COMPANION_DISTANCE_MIN;
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use hovertone_analysis::{Hover, Method, NoTone, Outcome, Reading, SpeedAnalysis, WeighedSpeed};
+use hovertone_analysis::{Hover, Method, NoTone, Outcome, Reading, SpeedAnalysis, Warning, WeighedSpeed};
 use hovertone_signal::passes::Passes;
 
 /// A candidate that is one rotor, or several.
@@ -56,6 +56,9 @@ pub(crate) fn decision_from_lines(
     let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
     if !keeps_phase && !rotors.are_told_apart() {
         return Err(lost().into());
+    }
+    if rotors.another_s > 0.0 && config.rotors.is_count_known {
+        lines.warnings.push(Warning::OtherRotorsHeard { expected: config.rotors.count });
     }
     let alternatives = candidates.alternatives(config);
     lines.warnings.extend(candidates.warnings(config));

@@ -27,11 +27,12 @@ pub(super) fn heard_rotors(
     };
     let mut sought = config.rotors;
     let mut rotors = separated(passes, sought)?;
-    if sought.is_count_known {
-        // no other rotor turns
-        return Ok(RotorTracks { another_s: 0.0, ..rotors });
-    }
     let mut leave_another = rotors.leave_another();
+    if sought.is_count_known {
+        // what may be the rest of these rotors is no other rotor
+        let another_s = if leave_another { rotors.another_s } else { 0.0 };
+        return Ok(RotorTracks { another_s, ..rotors });
+    }
     while let Some(more) = sought.more().filter(|_| leave_another) {
         sought = more;
         passes.expect_more(2);
