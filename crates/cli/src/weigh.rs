@@ -4,7 +4,7 @@ use crate::args::WeighArguments;
 use crate::copies::refuse_copies;
 use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
-use crate::foreign_speed::foreign_speed;
+use crate::foreign_speed::{advise_by_constant, foreign_speed};
 use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
@@ -59,8 +59,12 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records = plan.records_of(&jobs, hearing, &progress);
+    let mut records = plan.records_of(&jobs, hearing, &progress);
     progress.finish();
+    let tone_of_constant = results.as_ref().and_then(|rotor| rotor.tone.as_ref());
+    if let Some(heard) = tone_of_constant {
+        records.iter_mut().for_each(|record| advise_by_constant(record, heard, &arguments.tone));
+    }
     let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
     let scale = plan.scale_for(&records);
@@ -71,7 +75,6 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
             weighed.check().and_then(|()| plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
         checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     }
-    let tone_of_constant = results.as_ref().and_then(|rotor| rotor.tone.as_ref());
     let foreign = tone_of_constant.and_then(|heard| foreign_speed(&records, heard, &arguments.tone));
     let is_doubtful =
         foreign.is_some() || records.iter().any(|record| record.contradiction().is_some() && record.speed().is_some());
