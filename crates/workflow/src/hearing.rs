@@ -7,8 +7,8 @@ use hovertone::speed::{
 };
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, MediaWarning, Recording};
-use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord, Wording};
-use hovertone_vehicle::{KNOWN_RANGE_MARGIN, Order, check_tips};
+use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord, Wording, significant};
+use hovertone_vehicle::{AIR_KG_M3, KNOWN_RANGE_MARGIN, Order, THRUST_COEFFICIENT, check_tips};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -113,6 +113,10 @@ pub fn hear(
     record.notices = notices_of(recording).into_iter().chain(of_analysis).collect();
     record.notices.extend(notice_of_reading(&record).filter(|_| follows_a_tone));
     record.notices.extend(notice_of_one_tone(&record, &config));
+    // an experiment tests the thrust of its constant, and a search leaves such speeds out
+    if !task.wants_samples && task.discovery.is_none() {
+        record.notices.extend(notice_of_thrust(&record, &config));
+    }
     let diameter_m = config.known.diameter_m.or(task.discovery.and_then(|discovery| discovery.known.diameter_m));
     record.notices.extend(notice_of_tips(&record, diameter_m));
     Ok(Heard { record, config, spin_up })
@@ -136,6 +140,22 @@ fn notice_of_one_tone(record: &SpeedRecord, config: &Config) -> Option<Notice> {
         _ => "to hear each rotor, leave --method out",
     };
     (share > 0.0).then(|| Notice::new(text, hint))
+}
+
+/// That the vehicle could not hover at the heard speed, where the sound does not show it by itself.
+fn notice_of_thrust(record: &SpeedRecord, config: &Config) -> Option<Notice> {
+    let speed_rev_s = record.speed().filter(|_| record.contradiction().is_none())?.speed.rev_s();
+    let coefficient = config.known.hover_thrust_coefficient(speed_rev_s, AIR_KG_M3)?;
+    let (low, high) = (THRUST_COEFFICIENT.start(), THRUST_COEFFICIENT.end());
+    // on a bench, one rotor carries nothing
+    let is_foreign = config.rotors.count > 1 && !THRUST_COEFFICIENT.contains(&coefficient);
+    let text = format!(
+        "the vehicle does not hover at {speed_rev_s:.1} rev/s: its diameter, mass and number of rotors mean a thrust coefficient of {} there, \
+         and propellers have {low} to {high}",
+        significant(coefficient, 2)
+    );
+    let hint = format!("if it hovers in this recording, check {}", record.given_facts().in_words("and"));
+    is_foreign.then(|| Notice::new(text, hint))
 }
 
 /// That the blade tips would be too fast at the heard speed.

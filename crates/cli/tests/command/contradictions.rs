@@ -198,6 +198,23 @@ fn a_speed_that_the_vehicle_of_a_constant_cannot_have_is_said() {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
     assert!(run.stdout.contains("do not use this mass"), "{}", run.stdout);
+    // without the flag, no advice leads to it
+    let alone = hovertone(&["weigh", text(&sound), "--constant", text(&results)]).ends_with(3).stderr;
+    assert!(!alone.contains("give --blades") && !alone.contains("check the blades"), "{alone}");
     let counted = run.stderr.matches("warning: ").count();
     assert_eq!(run.stderr.matches(&format!("{counted} warning")).count(), 1, "{}", run.stderr);
+}
+
+/// The blades are given, so that nothing was searched for: the speed is still compared with what carries the vehicle.
+#[test]
+fn a_speed_at_which_the_vehicle_cannot_hover_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
+    let facts = ["--blades", "2", "--rotors", "4", "--diameter-m", "0.2"];
+    let heard = |mass: &str| hovertone(&[&["speed", text(&sound), "--mass-kg", mass], &facts[..]].concat()).stderr;
+    let heavy = heard("0.9");
+    let is_said = ["does not hover at 61.3 rev/s", "contradict"].iter().any(|words| heavy.contains(words));
+    assert!(is_said, "{heavy}");
+    assert!(!heard("0.413").contains("does not hover"));
 }
