@@ -29,11 +29,11 @@ pub enum MediaError {
     /// No known signature.
     #[error(
         "this is not an audio or video file that hovertone can read: its content matches no audio or video format \
-         (it begins {first_bytes}); give a video or audio file"
+         ({content}); give a video or audio file"
     )]
     UnknownFormat {
-        /// The first bytes, as hexadecimal numbers.
-        first_bytes: String,
+        /// What the file holds: text, or its first bytes as hexadecimal numbers.
+        content: String,
     },
 
     /// A pipe that holds no sound of a known kind.

@@ -395,6 +395,6 @@ pub(crate) fn sniffed_from_file(access: &dyn FileAccess, ffmpeg: &FfmpegUse) -> 
         Some(found) if found.has_input && !found.is_guess && !found.audio_codecs.is_empty() => {
             Ok(Sniffed { container: Container::Other, base: 0, mpeg: None })
         }
-        _ => Err(MediaError::UnknownFormat { first_bytes: container::first_bytes_in_hex(&mut file) }),
+        _ => Err(MediaError::UnknownFormat { content: container::content_in_words(&mut file) }),
     }
 }

@@ -58,6 +58,9 @@ pub enum Contradicted {
     ByAnotherRotor,
 }
 
+/// In less sound, hovering longer is no advice: there is too little of it. *Decision.*
+const HOVER_S_MIN: f64 = 1.0;
+
 /// Result of the search for a tone of unknown order.
 #[derive(Clone, Debug)]
 pub struct Found {
@@ -222,6 +225,9 @@ impl SpeedRecord {
     /// Reason for a missing speed of an analysis, with the flags of `hovertone speed`.
     fn reason_of(&self, analysis: &SpeedAnalysis) -> Option<String> {
         match &analysis.outcome {
+            Outcome::NoRotorTone { reason: NoTone::NoHover } if analysis.hover.span_s().is_some_and(|span_s| span_s < HOVER_S_MIN) => {
+                analysis.hover.span_s().map(|heard_s| NoTone::TooShort { heard_s }.to_string())
+            }
             Outcome::NoRotorTone { reason } => {
                 let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.in_words(self.given_facts()));
                 Some(self.spoiled.clone().unwrap_or_else(of_mesh))
@@ -284,10 +290,14 @@ impl SpeedRecord {
         let range = only_rev_s.map_or_else(String::new, |(low, high)| {
             format!(" at {:.0} to {:.0} Hz, as of {low:.0} to {high:.0} rev/s", order * low, order * high)
         });
+        let given = self.given_facts();
+        let (replaced, given) = (GivenFacts { blades: false, ..given }.in_words("and"), given.in_words("and"));
+        let blades = self.settings.pointer("/tone/blades").and_then(Value::as_u64);
+        let blades = blades.map_or_else(|| "N".to_owned(), |blades| blades.to_string());
         (order > BLADES_MAX).then(|| {
             format!(
-                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades N alone, in place of the vehicle, \
-                 the gear or the order; if they have one, check these facts, or go nearer"
+                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades {blades} alone, in place of \
+                 {replaced}; if they have one, check {given}, or go nearer"
             )
         })
     }
