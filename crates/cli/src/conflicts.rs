@@ -61,8 +61,9 @@ pub(crate) fn advice(one: &str, other: &str, words: &[OsString]) -> String {
 pub(crate) fn place_in_experiment(flag: &str, words: &[OsString]) -> Option<String> {
     words.get(1).filter(|command| *command == "identify")?;
     let has_file = has_experiment(words);
-    if flag == "--mass-kg" && has_file {
-        return Some(beside_experiment("--mass", words));
+    if flag == "--mass-kg" {
+        // without a file, --mass is meant
+        return has_file.then(|| beside_experiment("--mass", words));
     }
     let ExperimentKey { key, table, .. } = ExperimentKey::of_flag(flag)?;
     Some(match has_file {

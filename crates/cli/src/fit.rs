@@ -186,8 +186,8 @@ fn fitted_table(
     if is_stated && stated < points.len() {
         warnings.push(ThrustWarning::UncertaintiesIncomplete { stated, of: points.len() });
     }
-    let notes =
-        rotors_notice(table, is_weighed, plan).into_iter().chain(table.notes.iter().map(|note| Notice::new(note, "")));
+    let of_table = table.notes.iter().map(|note| Notice::new(note, hint_of_note(note)));
+    let notes = rotors_notice(table, is_weighed, plan).into_iter().chain(of_table);
     Ok(FittedTable {
         file: path.display().to_string(),
         sha256: sha256.to_owned(),
@@ -205,6 +205,15 @@ fn fitted_table(
         notices: notes.chain(too_strong).chain(warnings.iter().map(Notice::from)).collect(),
         fit,
     })
+}
+
+/// What to do about a note on a table; empty where it only says what was done with rows.
+fn hint_of_note(note: &str) -> &'static str {
+    match note {
+        note if note.contains("its name has no unit") => "if it is meant, put its unit into its name, as in thrust_g",
+        note if note.starts_with("column ") => "if you mean this column, remove the other",
+        _ => "",
+    }
 }
 
 fn unfitted(error: &FitError, points: &[ForcePoint], path: &Path) -> Failure {
