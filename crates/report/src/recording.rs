@@ -292,11 +292,9 @@ impl SpeedRecord {
         });
         let given = self.given_facts();
         let (replaced, given) = (GivenFacts { blades: false, ..given }.in_words("and"), given.in_words("and"));
-        let blades = self.settings.pointer("/tone/blades").and_then(Value::as_u64);
-        let blades = blades.map_or_else(|| "N".to_owned(), |blades| blades.to_string());
         (order > BLADES_MAX).then(|| {
             format!(
-                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades {blades} alone, in place of \
+                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades N alone, in place of \
                  {replaced}; if they have one, check {given}, or go nearer"
             )
         })
