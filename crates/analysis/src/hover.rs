@@ -77,6 +77,14 @@ impl Hover {
         Self { segments: vec![span], cuts: Vec::new() }
     }
 
+    /// Time from the start of the first stretch to the end of the last, used or not. `None` without stretches.
+    pub fn span_s(&self) -> Option<f64> {
+        let spans = || self.segments.iter().chain(self.cuts.iter().map(|cut| &cut.span));
+        let from_s = spans().map(|span| span.from_s).fold(f64::INFINITY, f64::min);
+        let to_s = spans().map(|span| span.to_s).fold(f64::NEG_INFINITY, f64::max);
+        (to_s > from_s).then_some(to_s - from_s)
+    }
+
     /// The later half of the used time; of more than `length_s_max` only that much from the start counts.
     pub fn later_half(&self, length_s_max: f64) -> Self {
         let length_s = self.length_s().min(length_s_max);

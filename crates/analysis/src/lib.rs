@@ -5,6 +5,7 @@
 //! read them.
 
 mod condition;
+mod given;
 mod hover;
 mod labels;
 mod method;
@@ -23,6 +24,7 @@ mod warning;
 mod weighed_speed;
 
 pub use condition::{RotorCondition, ShaftLine};
+pub use given::GivenFacts;
 pub use hover::{Cut, CutReason, Hover};
 pub use labels::{LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorLabel, RotorLabels};
 pub use method::Method;
@@ -36,6 +38,6 @@ pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint};
 pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};
 pub use tone_family::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use uncertainty::{UncertaintySource, UncertaintyTerm};
-pub use verification::{Agreement, ComparedPoint, Verification, VerifiedRotor};
+pub use verification::{Agreement, COVERAGE_OF_HALF, ComparedPoint, Verification, VerifiedRotor};
 pub use warning::{HEARD_SHARE_MIN, Warning};
 pub use weighed_speed::WeighedSpeed;

@@ -1,6 +1,6 @@
 //! Reasons why no rotor tone was found.
 
-use crate::OtherRotor;
+use crate::{GivenFacts, OtherRotor};
 use serde::Serialize;
 use std::fmt;
 
@@ -58,6 +58,36 @@ pub enum NoTone {
     },
 }
 
+impl NoTone {
+    /// The reason with its advice, which names the given facts and no others.
+    pub fn in_words(&self, given: GivenFacts) -> String {
+        match self {
+            Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
+                let in_place = format!("give --blades {blades} alone, in place of {}", given.in_words("and"));
+                let may_turn = format!("with {blades} blades may turn at {speed_rev_s:.1} rev/s");
+                let not_heard = match only_rev_s {
+                    Some((low, high)) if (*low..=*high).contains(speed_rev_s) => {
+                        return format!("the given tone is not heard, but a rotor {may_turn}; {in_place}");
+                    }
+                    Some((low, high)) => format!(
+                        "no such rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it"
+                    ),
+                    None => "no such rotor is heard".to_owned(),
+                };
+                format!(
+                    "{not_heard}. But one {may_turn}: if the rotor has {blades} blades, {in_place}; if not, check {}",
+                    given.in_words("and")
+                )
+            }
+            Self::NoSeries { only_rev_s: Some((low, high)), instead: None } => format!(
+                "no rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it; check {}, or move the microphone nearer",
+                given.in_words("and")
+            ),
+            other => other.to_string(),
+        }
+    }
+}
+
 impl fmt::Display for NoTone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -72,32 +102,10 @@ impl fmt::Display for NoTone {
                 "the recording is silent; check the microphone. If the file has several audio tracks or channels, choose one with \
                 --audio-track or --channel: two channels of opposite sign cancel each other",
             ),
-            Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
-                match only_rev_s {
-                    Some((low, high)) if (*low..=*high).contains(speed_rev_s) => {
-                        return write!(
-                            f,
-                            "the given tone is not heard, but a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s; \
-                             give --blades {blades} alone, in place of the vehicle, the gear or the order"
-                        );
-                    }
-                    Some((low, high)) => write!(f, "no such rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it")?,
-                    None => f.write_str("no such rotor is heard")?,
-                }
-                write!(
-                    f,
-                    ". But one with {blades} blades may turn at {speed_rev_s:.1} rev/s: if the rotor has {blades} blades, give --blades \
-                    {blades} alone, in place of the vehicle, the gear, the order, the band, the diameter or the mass; if not, check these \
-                    facts"
-                )
-            }
-            Self::NoSeries { only_rev_s: None, .. } => {
+            Self::NoSeries { only_rev_s: None, instead: None } => {
                 f.write_str("nothing sounds like a rotor; move the microphone nearer, or choose a steady part with --from and --to")
             }
-            Self::NoSeries { only_rev_s: Some((low, high)), .. } => {
-                write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it; check these facts, such as \
-                the vehicle or the band, or move the microphone nearer")
-            }
+            Self::NoSeries { .. } => f.write_str(&self.in_words(GivenFacts::default())),
             Self::NoHover => {
                 f.write_str("no tone is steady for long enough; hover for ten seconds or longer without moving the sticks")
             }
@@ -120,7 +128,7 @@ impl fmt::Display for NoTone {
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,
                 "the tone should be near {tone_hz:.0} Hz, but the recording has no sound above {above_hz:.0} Hz: the recorder or its \
-                compression removed it; record without compression, or follow a lower tone (give --blades N for the blade pass)"
+                compression removed it; record without compression, or follow a lower tone: give --blades N alone for the blade pass"
             ),
         }
     }
@@ -141,9 +149,10 @@ mod tests {
     fn what_is_heard_instead_is_named_with_what_to_do() {
         let said = |only_rev_s| {
             let instead = Some(OtherRotor { blades: 2, speed_rev_s: 60.2 });
-            NoTone::NoSeries { only_rev_s, instead }.to_string()
+            let given = GivenFacts { vehicle: true, blades: true, band: true, ..GivenFacts::default() };
+            NoTone::NoSeries { only_rev_s, instead }.in_words(given)
         };
-        assert!(said(Some((13.0, 120.0))).contains("give --blades 2 alone, in place of the vehicle"));
+        assert!(said(Some((13.0, 120.0))).contains("give --blades 2 alone, in place of the vehicle and the band"));
         let other = said(Some((200.0, 400.0)));
         assert!(
             other.starts_with(
@@ -153,10 +162,10 @@ mod tests {
         );
         assert!(said(None).starts_with("no such rotor is heard. But one with 2 blades may turn at 60.2 rev/s"));
         assert!(
-            other.contains(
-                "give --blades 2 alone, in place of the vehicle, the gear, the order, the band, the diameter or the mass"
-            ),
+            other.contains("give --blades 2 alone, in place of the vehicle and the band; if not, check the"),
             "{other}"
         );
+        let nothing = NoTone::NoSeries { only_rev_s: Some((13.0, 120.0)), instead: None }.to_string();
+        assert!(nothing.contains("check the given facts, or move the microphone nearer"), "{nothing}");
     }
 }

@@ -4,6 +4,10 @@
 /// its rounding. *Decision.*
 const RIGHT_SHARE: f64 = 0.005;
 
+/// Share of the points within their ± (k = 2) where the true ± is twice the stated: P(|z| < 1). Below it, sound and log are not of the same
+/// speeds. Of rotors that are separated, the measured coverage is 0.85 to 0.9 (`docs/verify.md`). *Decision.*
+pub const COVERAGE_OF_HALF: f64 = 0.6827;
+
 /// A heard and a logged speed at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ComparedPoint {
@@ -11,7 +15,7 @@ pub struct ComparedPoint {
     pub time_s: f64,
     /// Heard speed.
     pub heard_rev_s: f64,
-    /// Standard uncertainty of --constant-n-s2.
+    /// Standard uncertainty of the heard speed.
     pub std_uncertainty_rev_s: f64,
     /// Logged speed.
     pub logged_rev_s: f64,
@@ -58,6 +62,8 @@ pub struct Verification {
     pub offset_s: f64,
     /// Whether another offset would be clearly worse; else the speeds are too steady to tell it.
     pub is_offset_told: bool,
+    /// Whether limits of the offset were given.
+    pub is_offset_given: bool,
     /// An offset outside of the given limits at which the log fits clearly better.
     pub better_offset_s: Option<f64>,
     /// How well the points lie within their ±.
@@ -78,9 +84,18 @@ impl Verification {
         (self.speed_ratio - 1.0).abs() <= RIGHT_SHARE
     }
 
-    /// Whether nothing speaks against the recording or the log: the means are equal, the offset is within its limits, and the points agree.
+    /// Whether recording and log agree: the means are equal, the offset is within its limits, the points agree, and the log is of this flight.
     pub fn passes(&self) -> bool {
-        self.is_right() && self.better_offset_s.is_none() && self.agreement != Agreement::Scattered
+        self.is_right()
+            && self.better_offset_s.is_none()
+            && self.agreement != Agreement::Scattered
+            && self.is_of_this_flight()
+    }
+
+    /// Whether something shows that the log is of this flight: speeds that change together tell the offset of the clocks, or it was given and
+    /// most points agree. Equal means of steady speeds show nothing, since another flight of the vehicle has them too.
+    fn is_of_this_flight(&self) -> bool {
+        self.is_offset_told || self.is_offset_given && self.coverage() >= COVERAGE_OF_HALF
     }
 
     /// Share of the points of all rotors within their ±.

@@ -133,20 +133,19 @@ impl Warning {
         }
     }
 
-    /// Advice to the user.
+    /// Advice to the user, where no band was given; for given facts see [`GivenFacts::hints`](crate::GivenFacts::hints).
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::RidgeOnBandEdge { .. } => "give a wider --band, or check the blades or the gear",
+            Self::RidgeOnBandEdge { .. } => "check the blades or the gear",
             Self::HarmonicLeftOut { harmonic: 1, .. } => {
-                "the speed comes from the other harmonics; to search more narrowly, give --band LOW:HIGH"
+                "the speed comes from the other harmonics; check the blades or the gear"
             }
-            Self::HarmonicLeftOut { .. } => "the speed comes from the other harmonics",
+            Self::HarmonicLeftOut { .. } => "you need to do nothing: the speed comes from the other harmonics",
             Self::BandCutByCodec { .. } => {
                 "to use the higher harmonics too, record without compression or at a higher bit rate"
             }
             Self::FewHarmonicsAgree { .. } => {
-                "another sound may be mixed in: check the blades or the gear, give a narrower --band, or use the tone alone with \
-                --harmonics 1"
+                "another sound may be mixed in: check the blades or the gear, or use the tone alone with --harmonics 1"
             }
             Self::OtherSteadySpeed { .. } | Self::HoversDiffer { .. } => {
                 "choose the part you mean with --from and --to"
@@ -154,11 +153,9 @@ impl Warning {
             Self::HoverShorterThanSample { .. } => "record a longer hover, or write a smaller length_s under [samples]",
             _ if self.is_hardly_heard() => {
                 "do not use this speed yet; first check the vehicle, the blades and the gear; if they are right, move the microphone nearer, \
-                 or choose the clear part with --from and --to; if you gave --band, leave it out"
+                 or choose the clear part with --from and --to"
             }
-            Self::ManyGaps { .. } => {
-                "move the microphone nearer, or choose the clear part with --from and --to; if you gave --band, leave it out"
-            }
+            Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { needed_s: Some(_), .. } => {
                 "choose a longer part with --from and --to, or record a longer hover"
             }
@@ -177,15 +174,12 @@ impl Warning {
             Self::RotorCountUnknown { .. } => {
                 "give the number of rotors with --rotors: for one rotor alone, the ± is smaller"
             }
-            Self::OtherRotorsHeard { expected: 1 } => {
-                "if several rotors turn, leave --rotors 1 out; if not, record away from other machines"
-            }
             Self::OtherRotorsHeard { .. } => {
                 "if more rotors turn, give their number with --rotors; if not, record away from other machines"
             }
-            Self::FitsElsewhere(_) => "check these facts: the vehicle, the blades, the diameter, the mass or the band",
+            Self::FitsElsewhere(_) => "check the given facts",
             Self::SeveralLines { .. } => {
-                "the result follows the loudest rotor of each moment; to follow one rotor, give a narrower --band"
+                "the result follows the loudest rotor of each moment; to follow one rotor, give --band LOW:HIGH around its tone"
             }
         }
     }
@@ -211,7 +205,8 @@ impl fmt::Display for Warning {
             }
             Self::FewHarmonicsAgree { used, of } => {
                 if 2 * used < *of {
-                    write!(f, "only {used} of {of} harmonics show the same speed")
+                    let show = if *used == 1 { "shows" } else { "show" };
+                    write!(f, "only {used} of {of} harmonics {show} the same speed")
                 } else {
                     f.write_str("the tone itself shows another speed than its harmonics")
                 }
@@ -242,7 +237,8 @@ impl fmt::Display for Warning {
             Self::FewFrames { frame_count, sample_s, .. } => {
                 write!(
                     f,
-                    "in a part of {sample_s:.1} s, the tone is heard in only {frame_count} frames (short pieces of sound)"
+                    "in a part of {sample_s:.1} s, the tone is heard in only {frame_count} {} (short pieces of sound)",
+                    if *frame_count == 1 { "frame" } else { "frames" }
                 )
             }
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed, spread_share } => {

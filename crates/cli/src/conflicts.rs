@@ -1,5 +1,6 @@
 //! Arguments that exclude each other, and why.
 
+use hovertone_report::ExperimentKey;
 use std::ffi::OsString;
 use std::path::Path;
 
@@ -34,6 +35,17 @@ const KNOWN: [([&str; 2], &str); 18] = [
     (["--output", "COMMAND"], "-o writes the pages of all commands, COMMAND prints one: leave one of them out"),
 ];
 
+/// That two arguments cannot be used together. A recording apart from its mass takes the place of an experiment file.
+pub(crate) fn conflict_in_words(one: &str, other: &str, words: &[OsString]) -> String {
+    match [one, other].contains(&EXPERIMENT) && !has_experiment(words) {
+        true if has_mass(words) => {
+            "a file stands apart from its mass, so that it counts as the experiment file".to_owned()
+        }
+        true => "the mass that hovers in the recording is missing".to_owned(),
+        false => format!("{one} cannot be used with {other}"),
+    }
+}
+
 /// What to do about two arguments that cannot be used together: flags, or places without their brackets.
 pub(crate) fn advice(one: &str, other: &str, words: &[OsString]) -> String {
     if let (EXPERIMENT, flag) | (flag, EXPERIMENT) = (one, other) {
@@ -45,29 +57,15 @@ pub(crate) fn advice(one: &str, other: &str, words: &[OsString]) -> String {
     reason.or_else(prints).unwrap_or("leave one of them out").to_owned()
 }
 
-/// Flags of other commands for which an experiment file has a key, and the table of the key.
-const KEYS: [(&str, &str, &str); 11] = [
-    ("--order", "order", "[tone]"),
-    ("--band", "band_hz", "[tone]"),
-    ("--harmonics", "harmonics", "[tone]"),
-    ("--from", "from_s", "[[load]]"),
-    ("--to", "to_s", "[[load]]"),
-    ("--window-s", "window_s", "[spectrogram]"),
-    ("--added-mass-kg", "added_mass_kg", "[[load]]"),
-    ("--temperature-c", "temperature_c", "[air]"),
-    ("--pressure-hpa", "pressure_hpa", "[air]"),
-    ("--humidity-percent", "humidity_percent", "[air]"),
-    ("--clock-ppm", "clock_ppm", "[recorder]"),
-];
-
 /// What to do about a flag that `identify` does not have, where an experiment file has a key for it.
 pub(crate) fn place_in_experiment(flag: &str, words: &[OsString]) -> Option<String> {
     words.get(1).filter(|command| *command == "identify")?;
     let has_file = has_experiment(words);
-    if flag == "--mass-kg" && has_file {
-        return Some(beside_experiment("--mass", words));
+    if flag == "--mass-kg" {
+        // without a file, --mass is meant
+        return has_file.then(|| beside_experiment("--mass", words));
     }
-    let (_, key, table) = KEYS.iter().find(|(known, ..)| *known == flag)?;
+    let ExperimentKey { key, table, .. } = ExperimentKey::of_flag(flag)?;
     Some(match has_file {
         true => format!("write it into the experiment file, as {key} under {table}"),
         false => {
@@ -76,29 +74,28 @@ pub(crate) fn place_in_experiment(flag: &str, words: &[OsString]) -> Option<Stri
     })
 }
 
+fn has_mass(words: &[OsString]) -> bool {
+    words.iter().any(|word| word.to_str().is_some_and(|word| word.split('=').next() == Some("--mass")))
+}
+
 fn has_experiment(words: &[OsString]) -> bool {
     words.iter().any(|word| Path::new(word).extension().is_some_and(|extension| extension == "toml"))
 }
 
 /// A fact beside an experiment file, which has a place for it.
 fn beside_experiment(flag: &str, words: &[OsString]) -> String {
-    let key = flag.trim_start_matches('-').replace('-', "_");
-    let has_file = has_experiment(words);
-    if key == "mass" && has_file {
-        return "write it into the experiment file, as mass_kg in [vehicle], or as added_mass_kg in its [[load]]; or leave the file out".to_owned();
+    if !has_experiment(words) {
+        let order = if has_mass(words) { ", and all other flags before --mass" } else { "" };
+        return format!("write each recording directly behind its mass, as in --mass 413g hover.mov{order}");
     }
-    if key == "mass" || !has_file {
-        return "recordings without an experiment file need the mass before them, as in --mass 413g hover.mov"
-            .to_owned();
+    match ExperimentKey::of_flag(flag) {
+        Some(ExperimentKey { key, table, .. }) => format!(
+            "write it into the experiment file, as {key} in {table}; or leave the file out, and give --mass with recordings"
+        ),
+        None => {
+            "write it into the experiment file, as mass_kg in [vehicle], or as added_mass_kg in its [[load]]; or leave the file out".to_owned()
+        }
     }
-    let key = match key.as_str() {
-        "vehicle" => "preset",
-        "diameter_m" => "propeller_diameter_m",
-        key => key,
-    };
-    format!(
-        "write it into the experiment file, as {key} in [vehicle]; or leave the file out, and give --mass with recordings"
-    )
 }
 
 #[cfg(test)]
@@ -140,9 +137,9 @@ mod tests {
             "{advised}"
         );
         assert!(advice("--vehicle", EXPERIMENT, &words).contains("as preset in [vehicle]"));
-        assert!(advice(EXPERIMENT, "--vehicle", &words[..2]).starts_with("recordings without"));
+        assert!(advice(EXPERIMENT, "--vehicle", &words[..2]).starts_with("write each recording directly behind"));
         assert!(advice(EXPERIMENT, "--mass", &words).contains("as mass_kg in [vehicle], or as added_mass_kg"));
-        assert!(advice(EXPERIMENT, "--mass", &words[..2]).starts_with("recordings without"));
+        assert!(advice(EXPERIMENT, "--mass", &words[..2]).starts_with("write each recording directly behind"));
     }
 
     #[test]

@@ -56,6 +56,9 @@ impl From<ConfigError> for Failure {
             ConfigError::EmptySpan { .. } => {
                 format!("give a later end or an earlier start, in seconds or as 1:02.5: {}", see_help(&typed_words()))
             }
+            ConfigError::EmptyBand { low_hz, high_hz } if low_hz > high_hz => {
+                format!("write the lower edge first: {high_hz}:{low_hz}")
+            }
             ConfigError::OutOfRange { name, .. } => correct_number(name, &typed_words()),
             _ => see_help(&typed_words()),
         };

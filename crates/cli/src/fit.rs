@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
         density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
     };
     if let Some(notice) = half_given(&arguments.air, &arguments.place) {
-        terminal.warning(&notice, "");
+        terminal.tip(&notice);
     }
     if arguments.json {
         let mut all = Vec::new();
@@ -178,14 +178,16 @@ fn fitted_table(
             .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller }),
     );
     let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m));
-    let too_strong = of_any_air().or_else(|| too_strong_notice(group, per_rotor)).filter(|_| coefficients.is_none());
+    let too_strong = of_any_air()
+        .or_else(|| too_strong_notice(group, per_rotor, plan.is_count_given))
+        .filter(|_| coefficients.is_none());
     let has_std = |point: &&ForcePoint| point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0;
     let stated = points.iter().filter(has_std).count();
     if is_stated && stated < points.len() {
         warnings.push(ThrustWarning::UncertaintiesIncomplete { stated, of: points.len() });
     }
-    let notes =
-        rotors_notice(table, is_weighed, plan).into_iter().chain(table.notes.iter().map(|note| Notice::new(note, "")));
+    let of_table = table.notes.iter().map(|note| Notice::new(note, hint_of_note(note)));
+    let notes = rotors_notice(table, is_weighed, plan).into_iter().chain(of_table);
     Ok(FittedTable {
         file: path.display().to_string(),
         sha256: sha256.to_owned(),
@@ -203,6 +205,15 @@ fn fitted_table(
         notices: notes.chain(too_strong).chain(warnings.iter().map(Notice::from)).collect(),
         fit,
     })
+}
+
+/// What to do about a note on a table; empty where it only says what was done with rows.
+fn hint_of_note(note: &str) -> &'static str {
+    match note {
+        note if note.contains("its name has no unit") => "if it is meant, put its unit into its name, as in thrust_g",
+        note if note.starts_with("column ") => "if you mean this column, remove the other",
+        _ => "",
+    }
 }
 
 fn unfitted(error: &FitError, points: &[ForcePoint], path: &Path) -> Failure {
@@ -247,12 +258,13 @@ fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Notice> {
 }
 
 /// Says that no propeller has such a thrust.
-fn too_strong_notice(group: &StandGroup, per_rotor: Estimate) -> Option<Notice> {
+fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_count_given: bool) -> Option<Notice> {
     let fastest_rad_s = group.rows.iter().map(|row| row.speed_rad_s).fold(0.0, f64::max);
     let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
     let text =
         format!("no propeller has such a thrust at such a speed: its tips would be at Mach {tip_mach:.2} or faster");
-    let hint = "check the units of the forces and of the speeds, and give the number of rotors with --rotors";
+    let rotors = if is_count_given { "--rotors" } else { "give the number of rotors with --rotors" };
+    let hint = format!("check the units of the forces and of the speeds, and {rotors}");
     (tip_mach > TIP_MACH_MAX).then(|| Notice::new(text, hint))
 }
 

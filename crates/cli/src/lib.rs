@@ -22,6 +22,7 @@ mod figure_file;
 mod file_list;
 mod files;
 mod fit;
+mod foreign_speed;
 mod greybox;
 mod identify;
 mod init;

@@ -19,7 +19,7 @@ pub(crate) const THE_LOG: &str = "the log";
 const IS_RECORDING: &str = "this is a recording, and a log is needed";
 const HINT_OF_RECORDING: &str = "give the log of the flight; `hovertone speed` hears a recording";
 /// The commands that take names for columns.
-const WITH_COLUMNS: [&str; 3] = ["log", "motor", "greybox"];
+const WITH_COLUMNS: [&str; 4] = ["log", "motor", "verify", "greybox"];
 const HINT_OF_LOSS: &str = "download the log again; what could be read of it was used";
 
 /// Lists all logs, or writes signals of one.
@@ -83,7 +83,7 @@ pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
 /// What to do, with the table of which the name was meant.
 fn hint_of(error: &LogError) -> String {
     if let LogError::NoTime { columns } = error {
-        return format!("{}{}", error.hint(), example_of_columns(columns));
+        return format!("{}{}{}", error.hint(), flag_of_columns(), example_of_columns(columns));
     }
     let meant = match error {
         LogError::NoSuchSignal { name, tables } => nearest(name, tables.split(", ")),
@@ -92,10 +92,19 @@ fn hint_of(error: &LogError) -> String {
     meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
 }
 
+/// The flag that names a column, where the command has it.
+fn flag_of_columns() -> &'static str {
+    if WITH_COLUMNS.contains(&command_word().as_str()) { ", or give --column OLD=time_s" } else { "" }
+}
+
+fn command_word() -> String {
+    typed_words().get(1).and_then(|word| word.to_str().map(str::to_owned)).unwrap_or_default()
+}
+
 /// The whole command that was typed, with names for the first two columns; empty where the command has no such names, or the log no two columns.
 fn example_of_columns(columns: &str) -> String {
     let mut headers = columns.split(", ");
-    let command = typed_words().get(1).and_then(|word| word.to_str().map(str::to_owned)).unwrap_or_default();
+    let command = command_word();
     let (Some(time), Some(other)) = (headers.next(), headers.next()) else { return String::new() };
     // a speed is no time
     let is_speed = ["rpm", "rad_s", "rev_s"].iter().any(|unit| time.ends_with(unit));

@@ -5,20 +5,28 @@ use hovertone_exchange::SimulatorFormat;
 use std::ffi::OsString;
 use std::path::Path;
 
+/// What is wrong with a decimal comma.
+pub(crate) const DECIMAL_SIGN: &str = "the decimal sign is a point";
+
 /// A number with a decimal comma or a percent sign: what is wrong, and what to write.
 pub(crate) fn number_meant(value: &str) -> Option<(&'static str, String)> {
     if let Some(point) = with_point(value) {
-        return Some(("the decimal sign is a point", format!("write {point}")));
+        return Some((DECIMAL_SIGN, format!("write {point}")));
     }
     let percent: f64 =
         with_point(value.strip_suffix('%')?).as_deref().or(value.strip_suffix('%'))?.trim().parse().ok()?;
     Some(("a share is a number without a percent sign", format!("write {}", percent / 100.0)))
 }
 
-/// The number that a comma stands in, with a point.
+/// The number that a comma stands in, with a point; also of a number with a unit, and of numbers with a colon between them.
 pub(crate) fn with_point(word: &str) -> Option<String> {
-    let point = word.replacen(',', ".", 1);
-    (point != word && point.parse::<f64>().is_ok()).then_some(point)
+    let of_part = |part: &str| {
+        let point = part.replacen(',', ".", 1);
+        let is_unit = |letter: char| letter.is_alphabetic() || letter == '"';
+        point.trim_end_matches(is_unit).trim_end().parse::<f64>().is_ok().then_some(point)
+    };
+    let parts: Option<Vec<String>> = word.split(':').map(of_part).collect();
+    parts.map(|parts| parts.join(":")).filter(|point| point != word)
 }
 
 /// What was meant by a flag that the command does not have: a long flag with one dash, or a file for what is printed.
@@ -68,13 +76,22 @@ mod tests {
 
     #[test]
     fn numbers_of_other_spellings_are_understood() {
-        for (typed, meant) in
-            [("0,2", "write 0.2"), ("62,08", "write 62.08"), ("3%", "write 0.03"), ("2,5%", "write 0.025")]
-        {
+        for (typed, meant) in [
+            ("0,2", "write 0.2"),
+            ("62,08", "write 62.08"),
+            ("3%", "write 0.03"),
+            ("2,5%", "write 0.025"),
+            ("0,413kg", "write 0.413kg"),
+            ("8,5 in", "write 8.5 in"),
+            ("100,5:200", "write 100.5:200"),
+            ("1:02,5", "write 1:02.5"),
+        ] {
             assert_eq!(number_meant(typed).map(|(_, hint)| hint).as_deref(), Some(meant), "{typed}");
         }
         assert_eq!(number_meant("1,000,000"), None);
-        assert_eq!(number_meant("ten %"), None);
+        for no_number in ["ten %", ",", "a,b", "kg", "8:69"] {
+            assert_eq!(number_meant(no_number), None, "{no_number}");
+        }
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! A command line that has no meaning: one line says what is wrong and what to do.
 
 use crate::args::Arguments;
-use crate::conflicts::{advice, place_in_experiment};
+use crate::conflicts::{advice, conflict_in_words, place_in_experiment};
 use crate::failure::Failure;
-use crate::meant::{flag_meant, number_meant, place_meant, results_meant, with_point};
+use crate::meant::{DECIMAL_SIGN, flag_meant, number_meant, place_meant, results_meant, with_point};
 use crate::missing::missing_in_words;
 use crate::nearest::nearest;
 use crate::see_help::{example_and_help, is_typed, typed_command};
@@ -71,7 +71,11 @@ impl Misuse {
             },
             ErrorKind::ValueValidation => {
                 let reason = reason_of(error);
-                match number_meant(&value).filter(|_| !reason.contains("whole number") && !name.starts_with("--mass")) {
+                // a comma may also stand for the colon of a pair, and a mass is no share
+                let is_pair = !value.contains(':') && [":HIGH", ":WHEEL"].iter().any(|end| reason.contains(end));
+                let is_share_of_mass = name.starts_with("--mass") && value.ends_with('%');
+                let is_other = is_pair || is_share_of_mass || reason.contains("whole number");
+                match number_meant(&value).filter(|_| !is_other) {
                     Some((why, hint)) => Self { what: format!("{name} {value}: {why}"), hint: Some(hint) },
                     None => Self { what: format!("{name} {value}: {reason}"), hint: None },
                 }
@@ -85,7 +89,7 @@ impl Misuse {
                     return Self { what: format!("{name} is given more than once"), hint };
                 }
                 let [name, other] = [&name, &other].map(|argument| argument.trim_matches(['[', ']', '.']));
-                Self { what: format!("{name} cannot be used with {other}"), hint: Some(advice(name, other, words)) }
+                Self { what: conflict_in_words(name, other, words), hint: Some(advice(name, other, words)) }
             }
             ErrorKind::MissingRequiredArgument => {
                 let arguments = match error.get(ContextKind::InvalidArg) {
@@ -130,7 +134,7 @@ impl Misuse {
             let flag =
                 before.filter(|before| before.starts_with("--")).map_or(String::new(), |flag| format!("{flag} "));
             if let Some(point) = with_point(word) {
-                let what = format!("{flag}{word}: the decimal sign is a point");
+                let what = format!("{flag}{word}: {DECIMAL_SIGN}");
                 return Self { what, hint: Some(format!("write {point}")) };
             }
             let hint = "write the value without the minus sign; a file of this name is written ./NAME".to_owned();

@@ -137,6 +137,7 @@ impl<'a> Plan<'a> {
                 let command = commands.and_then(|(commands, _)| commands.names.first()).filter(|_| is_used).cloned();
                 let name = if self.arguments.known.rotors == Some(1) { ONE_ROTOR } else { ALL_ROTORS };
                 motors.extend(motor.model.map(|model| LoggedMotor { name: name.to_owned(), command, model }));
+                sound.no_tone = motors.is_empty().then(|| self.nothing_held());
                 rows.push(MotorRows { time_s: motor.time_s, speed_rev_s: motor.speed_rev_s });
             }
         }
@@ -148,6 +149,13 @@ impl<'a> Plan<'a> {
 }
 
 impl Plan<'_> {
+    /// That a tone is heard, but no speed, and what to do.
+    fn nothing_held(&self) -> String {
+        let is_part = self.arguments.from.or(self.arguments.to).is_some();
+        let advice = if is_part { "choose a longer part with --from and --to" } else { "record a longer run" };
+        format!("no speed is held for a second; {advice}, in which each speed is held for a second or longer")
+    }
+
     /// That the steps of commands and sound agree at another offset than the given one.
     fn misaligned(&self, other_offset_s: Option<f64>) -> Option<Notice> {
         let (given_s, other_s) = self.arguments.offset.zip(other_offset_s)?;

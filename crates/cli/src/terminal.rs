@@ -164,9 +164,15 @@ impl<'a> Terminal<'a> {
 
     /// The number of recordings without a speed and of warnings, and all messages about them, above their speeds.
     pub(crate) fn counted_notes(&mut self, records: &[&SpeedRecord]) {
-        if let Some(words) = weaknesses_in_words(records) {
+        self.counted_notes_and(&[], records);
+    }
+
+    /// The same, with warnings about something else before them.
+    pub(crate) fn counted_notes_and(&mut self, others: &[Notice], records: &[&SpeedRecord]) {
+        if let Some(words) = weaknesses_in_words(records, others.len()) {
             self.heading(&words);
         }
+        others.iter().for_each(|notice| self.warning(notice, ""));
         self.notes(records);
     }
 

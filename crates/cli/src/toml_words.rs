@@ -109,7 +109,7 @@ fn syntax(message: &str) -> Option<PlainFault> {
     if is("unclosed table") {
         return Some(PlainFault::new(
             "has a name in brackets that does not end",
-            "names have no spaces: write [my-drone]",
+            "write ] behind the name; a name has no spaces, as in [my-drone]",
         ));
     }
     if is("missing escaped value") || is("too few unicode value digits") {

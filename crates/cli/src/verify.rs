@@ -14,7 +14,7 @@ use crate::terminal::Terminal;
 use hovertone::rotors::{LoggedSpeeds, verification_from_log};
 use hovertone::speed::TrackPoint;
 use hovertone_figures::{DOTS_PER_INCH, verification_figure};
-use hovertone_report::{SpeedRecord, VerificationRecord, verification_json, verification_text};
+use hovertone_report::{Notice, SpeedRecord, VerificationRecord, verification_json, verification_text};
 use std::path::Path;
 
 /// Hears the recording and compares it with the log.
@@ -42,8 +42,8 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     if let Some(reason) = record.reason().filter(|_| record.has_failed()) {
         return Err(Failure::failed(reason, "", &arguments.recording));
     }
-    terminal.counted_notes(&[record]);
-    flight.notes.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
+    let losses: Vec<Notice> = flight.notes.iter().map(|words| loss_notice(words)).collect();
+    terminal.counted_notes_and(&losses, &[record]);
     if record.speed().is_none() {
         terminal.say("nothing is compared: the recording has no speed");
         return Ok(Ending::Incomplete);

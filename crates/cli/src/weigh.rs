@@ -4,6 +4,7 @@ use crate::args::WeighArguments;
 use crate::copies::refuse_copies;
 use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
+use crate::foreign_speed::{advise_by_constant, foreign_speed};
 use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
@@ -58,8 +59,12 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records = plan.records_of(&jobs, hearing, &progress);
+    let mut records = plan.records_of(&jobs, hearing, &progress);
     progress.finish();
+    let tone_of_constant = results.as_ref().and_then(|rotor| rotor.tone.as_ref());
+    if let Some(heard) = tone_of_constant {
+        records.iter_mut().for_each(|record| advise_by_constant(record, heard, &arguments.tone));
+    }
     let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
     let scale = plan.scale_for(&records);
@@ -70,12 +75,13 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
             weighed.check().and_then(|()| plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
         checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     }
-    let warnings: Vec<Notice> = weighed.iter().filter_map(WeighedHover::warning).map(|it| Notice::from(&it)).collect();
-    let is_doubtful = records.iter().any(SpeedRecord::is_doubtful);
+    let foreign = tone_of_constant.and_then(|heard| foreign_speed(&records, heard, &arguments.tone));
+    let is_doubtful =
+        foreign.is_some() || records.iter().any(|record| record.contradiction().is_some() && record.speed().is_some());
+    let of_mass = weighed.iter().filter_map(WeighedHover::warning).map(|warning| Notice::from(&warning));
+    let warnings: Vec<Notice> = foreign.into_iter().chain(of_mass).collect();
     let about: Vec<&SpeedRecord> = records.iter().collect();
-    terminal.warning_count(warnings.len());
-    warnings.iter().for_each(|warning| terminal.warning(warning, ""));
-    terminal.counted_notes(&about);
+    terminal.counted_notes_and(&warnings, &about);
     if arguments.json {
         let document = weighed_json(weighed.as_ref(), &warnings, &records).map_err(Failure::internal)?;
         terminal.data(&document)?;

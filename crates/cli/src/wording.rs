@@ -3,8 +3,7 @@
 use hovertone_report::Wording;
 
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
-pub(crate) const IN_PLACE_OF_FILE: Wording = Wording(&[
-    ("; if you gave --band, leave it out", ""),
+pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
     ("--from and --to", "from_s and to_s under [[load]] of the experiment file that -o DIR writes"),
     ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of the experiment file that -o DIR writes"),
     ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
@@ -47,7 +46,7 @@ mod tests {
             NoTone::NotHeld { tone_hz: 160.0, held_s: 1.0 },
         ];
         let of_records = [
-            "give --band LOW:HIGH around the blade pass; in flight, give the diameter of the propellers (--diameter-m), the mass (--mass-kg)",
+            "give the band of the blade pass with --band LOW:HIGH; in flight, give the diameter of the propellers (--diameter-m), the mass (--mass-kg)",
             "the number of rotors (--rotors)",
             "count the blades, and give --blades N too",
         ];

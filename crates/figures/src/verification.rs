@@ -134,6 +134,7 @@ mod tests {
         let found = Verification {
             offset_s: 0.0,
             is_offset_told: true,
+            is_offset_given: false,
             better_offset_s: None,
             agreement: Agreement::AsStated,
             clock_rate_share: None,

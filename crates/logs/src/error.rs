@@ -171,9 +171,7 @@ impl LogError {
                 "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }
             Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
-            Self::NoTime { .. } => {
-                "rename the header of the times, as in time_s or timestamp_us, or give --column OLD=time_s where the command has this flag"
-            }
+            Self::NoTime { .. } => "rename the header of the times, as in time_s or timestamp_us",
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"
             }

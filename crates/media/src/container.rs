@@ -203,13 +203,20 @@ pub(crate) fn container_from_content<R: Read + Seek>(reader: &mut R) -> io::Resu
     }))
 }
 
-/// The first bytes as hexadecimal numbers, for a message.
-pub(crate) fn first_bytes_in_hex<R: Read + Seek>(reader: &mut R) -> String {
+/// What a file of no known kind holds, for a message: text, or its first bytes as hexadecimal numbers.
+pub(crate) fn content_in_words<R: Read + Seek>(reader: &mut R) -> String {
+    const LOOKED_AT: u64 = 64;
+    const SHOWN: usize = 8;
     let mut head = Vec::new();
-    let read = reader.seek(SeekFrom::Start(0)).and_then(|_| reader.by_ref().take(8).read_to_end(&mut head));
+    let read = reader.seek(SeekFrom::Start(0)).and_then(|_| reader.by_ref().take(LOOKED_AT).read_to_end(&mut head));
+    let is_text = |byte: &u8| byte.is_ascii_graphic() || byte.is_ascii_whitespace();
     match read {
-        Ok(_) => head.iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().join(" "),
-        Err(_) => "unreadable".to_owned(),
+        Ok(_) if head.iter().all(is_text) => "it is text".to_owned(),
+        Ok(_) => {
+            let shown: Vec<String> = head.iter().take(SHOWN).map(|byte| format!("{byte:02x}")).collect();
+            format!("it begins {}", shown.join(" "))
+        }
+        Err(_) => "it is unreadable".to_owned(),
     }
 }
 

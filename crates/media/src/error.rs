@@ -14,6 +14,10 @@ pub enum MediaError {
     #[error("the file cannot be opened: {}", why_not_opened(.0))]
     CannotOpen(#[source] io::Error),
 
+    /// A recording at an address that this program cannot read.
+    #[error("{0}")]
+    AtAddress(String),
+
     /// A directory, pipe or device.
     #[error("this is a pipe or a device, and the sound is read more than once; give a file on disk, or - for stdin")]
     NotAFile,
@@ -25,11 +29,11 @@ pub enum MediaError {
     /// No known signature.
     #[error(
         "this is not an audio or video file that hovertone can read: its content matches no audio or video format \
-         (it begins {first_bytes}); give a video or audio file"
+         ({content}); give a video or audio file"
     )]
     UnknownFormat {
-        /// The first bytes, as hexadecimal numbers.
-        first_bytes: String,
+        /// What the file holds: text, or its first bytes as hexadecimal numbers.
+        content: String,
     },
 
     /// A pipe that holds no sound of a known kind.
@@ -154,7 +158,7 @@ impl MediaError {
     pub fn class(&self) -> &'static str {
         match self {
             Self::CannotOpen(error) if error.kind() == io::ErrorKind::NotFound => "not_found",
-            Self::CannotOpen(_) | Self::Read(_) => "unreadable",
+            Self::CannotOpen(_) | Self::Read(_) | Self::AtAddress(_) => "unreadable",
             Self::NotAFile => "not_a_file",
             Self::Empty => "empty",
             Self::UnknownFormat { .. } | Self::UnknownStream { .. } => "unknown_format",

@@ -15,6 +15,7 @@ use crate::guard::guarded;
 use crate::mix::Mix;
 use crate::mix_loss::MixLoss;
 use crate::native::{NativeFrames, audio_parameters};
+use crate::plan::damage_in_words;
 use crate::warning::MediaWarning;
 
 /// The first audio track of a stream of bytes that cannot seek: WAVE, FLAC, Ogg, Matroska, WebM, MP3 or ADTS.
@@ -37,11 +38,11 @@ impl PipedSound {
         // Symphonia needs a power of two above 32 KiB; it hands on what has arrived, however little
         let options = MediaSourceStreamOptions { buffer_len: 64 * 1024 };
         let stream = MediaSourceStream::new(Box::new(ReadOnlySource::new(bytes)), options);
-        let reader = probed(stream).map_err(|error| MediaError::UnknownStream { why: error.to_string() })?;
+        let unknown = |error: SymphoniaError| MediaError::UnknownStream { why: stream_fault_in_words(&error) };
+        let reader = probed(stream).map_err(unknown)?;
         let track = reader.tracks().iter().find(|track| audio_parameters(track).is_some());
         let track_id = track.map(|track| track.id).ok_or(MediaError::NoAudioInStream)?;
-        let frames = NativeFrames::from_demuxer(reader, track_id, false)
-            .map_err(|error| MediaError::UnknownStream { why: error.to_string() })?;
+        let frames = NativeFrames::from_demuxer(reader, track_id, false).map_err(unknown)?;
         let mix = Mix::of(frames.channel_count(), channel)?;
         Ok(Self {
             frames,
@@ -76,6 +77,17 @@ impl PipedSound {
             self.mix.append(&mut self.interleaved, &mut self.block, &mut self.mix_loss);
         }
         Ok((!self.block.is_empty()).then_some(self.block.as_slice()))
+    }
+}
+
+/// What is wrong with a stream whose kind is not known.
+fn stream_fault_in_words(error: &SymphoniaError) -> String {
+    match error {
+        SymphoniaError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            "it ended before any sound".to_owned()
+        }
+        SymphoniaError::Unsupported(_) => "its beginning matches no such format".to_owned(),
+        error => damage_in_words(error).to_owned(),
     }
 }
 
@@ -157,6 +169,8 @@ mod tests {
         for bytes in [Vec::new(), b"hello, this is a text and no sound at all".repeat(40)] {
             let error = PipedSound::open(Cursor::new(bytes), None).err().unwrap();
             assert!(matches!(error, MediaError::UnknownStream { .. }), "{error}");
+            let words_of_decoder = ["unsupported feature", "malformed", "probe"];
+            assert!(words_of_decoder.iter().all(|word| !error.to_string().contains(word)), "{error}");
         }
     }
 }

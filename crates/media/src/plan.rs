@@ -20,6 +20,9 @@ use crate::source::Patch;
 use crate::warning::MediaWarning;
 use crate::wave::{WaveLayout, WavePcmFrames};
 
+/// Sound shorter than this share of the length that the header estimates has lost a part. *Decision.*
+const LOST_SHARE: f64 = 0.95;
+
 /// Packets at the beginning that can fail to decode before a track counts as damaged.
 const BAD_PACKETS_AT_START_MAX: u32 = 200;
 
@@ -100,6 +103,13 @@ impl Plan {
                 })
             }
         })
+    }
+
+    /// The length of which a part is missing. An estimate alone proves no loss, but it shows how much a decoder lost that complained.
+    pub(crate) fn short_of_s(&self, decoded_s: f64, has_complaint: bool) -> Option<f64> {
+        let declared_s = self.declared_s.filter(|declared_s| decoded_s + self.declared_slack_s < *declared_s);
+        let estimated_s = self.approximate_s.filter(|_| has_complaint && self.declared_s.is_none());
+        declared_s.or(estimated_s.filter(|estimated_s| decoded_s < LOST_SHARE * estimated_s))
     }
 
     fn ffmpeg_error(&self, error: FfmpegError) -> MediaError {
@@ -183,12 +193,21 @@ impl NotNative {
 }
 
 pub(crate) fn native_error(error: SymphoniaError, container: Container) -> MediaError {
-    let why = match error {
-        SymphoniaError::IoError(error) if error.raw_os_error().is_some() => return MediaError::Read(error),
+    match error {
+        SymphoniaError::IoError(error) if error.raw_os_error().is_some() => MediaError::Read(error),
+        error => MediaError::Damaged { container, why: damage_in_words(&error).to_owned() },
+    }
+}
+
+/// What is wrong with a file, in place of the words of the decoder, which are for its programmers.
+pub(crate) fn damage_in_words(error: &SymphoniaError) -> &'static str {
+    match error {
         SymphoniaError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            "it ends within its header".to_owned()
+            "it ends within its header"
         }
-        error => error.to_string(),
-    };
-    MediaError::Damaged { container, why }
+        SymphoniaError::IoError(_) => "it could not be read to its end",
+        SymphoniaError::Unsupported(_) => "it has a part that hovertone cannot read",
+        SymphoniaError::LimitError(_) => "a size in its header is impossible",
+        _ => "its bytes do not follow the format",
+    }
 }

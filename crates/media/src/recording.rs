@@ -313,13 +313,13 @@ impl Recording {
         of_mix.into_iter().for_each(|warning| self.warnings.put(warning));
         if *has_ended {
             let decoded_s = *heard_frames as f64 / rate;
-            let declared_s = self.plan.declared_s;
-            let is_short =
-                declared_s.is_some_and(|declared| decoded_s + self.plan.declared_slack_s + 0.5 / rate < declared);
-            let ended_early = incidents.is_cut_off && !self.plan.has_open_end;
-            let is_cut_off = declared_s.is_none() && (ended_early || self.plan.is_cut_off);
-            self.is_prefix = is_short || is_cut_off || incidents.format_changed;
-            if is_short || is_cut_off {
+            let plan = &self.plan;
+            let short_of_s = plan.short_of_s(decoded_s + 0.5 / rate, incidents.ffmpeg_message.is_some());
+            let ended_early = incidents.is_cut_off && !plan.has_open_end;
+            let is_cut_off = plan.declared_s.is_none() && (ended_early || plan.is_cut_off);
+            self.is_prefix = short_of_s.is_some() || is_cut_off || incidents.format_changed;
+            if short_of_s.is_some() || is_cut_off {
+                let declared_s = plan.declared_s.or(short_of_s);
                 self.warnings.put(MediaWarning::Truncated { decoded_s, declared_s });
             }
         }
@@ -395,6 +395,6 @@ pub(crate) fn sniffed_from_file(access: &dyn FileAccess, ffmpeg: &FfmpegUse) -> 
         Some(found) if found.has_input && !found.is_guess && !found.audio_codecs.is_empty() => {
             Ok(Sniffed { container: Container::Other, base: 0, mpeg: None })
         }
-        _ => Err(MediaError::UnknownFormat { first_bytes: container::first_bytes_in_hex(&mut file) }),
+        _ => Err(MediaError::UnknownFormat { content: container::content_in_words(&mut file) }),
     }
 }

@@ -168,7 +168,9 @@ impl fmt::Display for MediaWarning {
             Self::FormatChange { at_s } => {
                 write!(f, "the sample rate or the channels change after {at_s:.3} s; the rest was left out")
             }
-            Self::Ffmpeg { message } => write!(f, "ffmpeg complained: {message}"),
+            Self::Ffmpeg { message } => {
+                write!(f, "ffmpeg could not decode all of the sound: it said \u{201c}{message}\u{201d}")
+            }
         }
     }
 }

@@ -88,8 +88,15 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
         0 => String::new(),
         count => format!(", {count} of them left out of the fit"),
     };
+    let (of_all, total) = match table.rotor_count {
+        1 => (String::new(), String::new()),
+        count => (
+            format!("C_f and F₀ in these laws are of all {count} rotors together\n"),
+            format!("C_f, all {count} rotors = {} ({meaning})\n", quoted(table.thrust_constant_total_n_s2)),
+        ),
+    };
     let mut text = format!(
-        "{}\n{}{left_out}, {} against {}\n\n{}\nC_f, one rotor = {} ({meaning})\n",
+        "{}\n{}{left_out}, {} against {}\n\n{}{of_all}\n{total}C_f, one rotor = {} ({meaning})\n",
         printable(&table.name()),
         counted(table.row_count, "table row"),
         printable(&table.force_column),

@@ -29,7 +29,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     let separated = match plan.largest {
         BudgetInput::LoudestRotor => {
-            "\nAssumed: one speed is used for all rotors; --rotors-separated plans for separated rotors (docs/budget.md)."
+            "\nThis assumes that the rotors cannot be separated. If `hovertone speed` separates yours, add --rotors-separated."
         }
         _ => "",
     };

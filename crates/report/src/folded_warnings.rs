@@ -87,11 +87,12 @@ fn lines_of_warnings(records: &[&SpeedRecord], folded: &[FoldedWarning]) -> usiz
     of_several + records.iter().map(|record| own_notices(record, folded).len()).sum::<usize>()
 }
 
-/// "1 recording without a speed, 2 warnings": what stands above the speeds of recordings. `None` where there is nothing to tell.
-pub fn weaknesses_in_words(records: &[&SpeedRecord]) -> Option<String> {
+/// "1 recording without a speed, 2 warnings": what stands above the speeds of recordings. `others` are warnings about something else than the
+/// recordings. `None` where there is nothing to tell.
+pub fn weaknesses_in_words(records: &[&SpeedRecord], others: usize) -> Option<String> {
     let ambiguous = records.iter().filter(|record| record.is_ambiguous()).count();
     let without = records.iter().filter(|record| record.reason().is_some() && !record.has_failed()).count() - ambiguous;
-    let warnings = lines_of_warnings(records, &folded_warnings(records));
+    let warnings = others + lines_of_warnings(records, &folded_warnings(records));
     let mut words = Vec::new();
     for (count, what) in [(without, "without a speed"), (ambiguous, "with several possible speeds")] {
         if count > 0 {

@@ -1,6 +1,5 @@
 //! A warning as text: the problem and the advice.
 
-use hovertone_analysis::Warning;
 use hovertone_thrust::ThrustWarning;
 use serde::{Serialize, Serializer};
 use std::fmt;
@@ -18,12 +17,6 @@ impl Notice {
     /// From a text and a hint.
     pub fn new(text: impl Into<String>, hint: impl Into<String>) -> Self {
         Self { text: text.into(), hint: hint.into() }
-    }
-}
-
-impl From<&Warning> for Notice {
-    fn from(warning: &Warning) -> Self {
-        Self::new(warning.to_string(), warning.hint())
     }
 }
 

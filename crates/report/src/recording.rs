@@ -4,7 +4,7 @@ use crate::notice::Notice;
 use crate::number::significant;
 use crate::wording::Wording;
 use hovertone_analysis::{
-    Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
+    GivenFacts, Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
     SpeedAnalysis, SpeedEstimate, ToneFamily, Warning,
 };
 use hovertone_vehicle::{BLADES_MAX, Order, THRUST_COEFFICIENT};
@@ -48,6 +48,18 @@ pub enum Answer {
         reason: String,
     },
 }
+
+/// How a sound contradicts the rotors that were given. Nothing should be built on such a speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contradicted {
+    /// Their tone is hardly heard.
+    HardlyHeard,
+    /// Another rotor fits far better.
+    ByAnotherRotor,
+}
+
+/// In less sound, hovering longer is no advice: there is too little of it. *Decision.*
+const HOVER_S_MIN: f64 = 1.0;
 
 /// Result of the search for a tone of unknown order.
 #[derive(Clone, Debug)]
@@ -119,11 +131,19 @@ impl SpeedRecord {
         self.analysis().filter(|_| !self.is_ambiguous())
     }
 
-    /// Whether the sound does not fit the rotors that were said: their tone is hardly heard, or another rotor fits far better. Nothing should be
-    /// built on such a speed.
-    pub fn is_doubtful(&self) -> bool {
-        let is_against = |warning: &Warning| warning.is_hardly_heard() || matches!(warning, Warning::FitsElsewhere(_));
-        self.unambiguous_analysis().is_some_and(|analysis| analysis.warnings.iter().any(is_against))
+    /// How the sound contradicts the rotors that were given; `None` where it does not.
+    pub fn contradiction(&self) -> Option<Contradicted> {
+        let analysis = self.unambiguous_analysis()?;
+        let has = |is_meant: &dyn Fn(&Warning) -> bool| analysis.warnings.iter().any(is_meant);
+        let no_tone_but_another_rotor =
+            matches!(&analysis.outcome, Outcome::NoRotorTone { reason: NoTone::NoSeries { instead: Some(_), .. } });
+        match () {
+            () if no_tone_but_another_rotor || has(&|warning| matches!(warning, Warning::FitsElsewhere(_))) => {
+                Some(Contradicted::ByAnotherRotor)
+            }
+            () if has(&Warning::is_hardly_heard) => Some(Contradicted::HardlyHeard),
+            () => None,
+        }
     }
 
     /// The tone of the rotor, if there is one.
@@ -205,8 +225,11 @@ impl SpeedRecord {
     /// Reason for a missing speed of an analysis, with the flags of `hovertone speed`.
     fn reason_of(&self, analysis: &SpeedAnalysis) -> Option<String> {
         match &analysis.outcome {
+            Outcome::NoRotorTone { reason: NoTone::NoHover } if analysis.hover.span_s().is_some_and(|span_s| span_s < HOVER_S_MIN) => {
+                analysis.hover.span_s().map(|heard_s| NoTone::TooShort { heard_s }.to_string())
+            }
             Outcome::NoRotorTone { reason } => {
-                let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.to_string());
+                let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.in_words(self.given_facts()));
                 Some(self.spoiled.clone().unwrap_or_else(of_mesh))
             }
             Outcome::Ok(_) if !self.is_ambiguous() => None,
@@ -224,10 +247,14 @@ impl SpeedRecord {
                 speed"
                     .to_owned(),
             ),
-            Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() => Some(format!(
-                "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}",
-                self.missing_facts()
-            )),
+            // a vehicle with a mass is in flight
+            Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() && !self.given_facts().mass => {
+                let band = if self.given_facts().band { "a narrower --band" } else { "--band LOW:HIGH" };
+                Some(format!(
+                    "several rotor speeds explain this sound; on a bench, give the band of the blade pass with {band}; in flight, give {}",
+                    self.missing_facts()
+                ))
+            }
             Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
                 "several rotor speeds explain this sound; give {}",
                 self.missing_facts()
@@ -263,10 +290,12 @@ impl SpeedRecord {
         let range = only_rev_s.map_or_else(String::new, |(low, high)| {
             format!(" at {:.0} to {:.0} Hz, as of {low:.0} to {high:.0} rev/s", order * low, order * high)
         });
+        let given = self.given_facts();
+        let (replaced, given) = (GivenFacts { blades: false, ..given }.in_words("and"), given.in_words("and"));
         (order > BLADES_MAX).then(|| {
             format!(
-                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades N alone, in place of the vehicle, \
-                 the gear or the order; if they have one, check these facts, or go nearer"
+                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades N alone, in place of \
+                 {replaced}; if they have one, check {given}, or go nearer"
             )
         })
     }
@@ -274,6 +303,25 @@ impl SpeedRecord {
     /// Whether one rotor alone is said to turn, as on a bench.
     fn is_one_rotor(&self) -> bool {
         self.settings.pointer("/known/rotor_count").and_then(Value::as_u64) == Some(1)
+    }
+
+    /// The facts that were given before the recording was heard.
+    pub fn given_facts(&self) -> GivenFacts {
+        let of_search = self.found.as_ref().map(|found| &found.settings);
+        let is_given = |place: &str| {
+            let has = |settings: &Value| settings.pointer(place).is_some_and(|value| !value.is_null());
+            has(&self.settings) || of_search.is_some_and(has)
+        };
+        let (is_order_given, is_mesh) = (self.found.is_none(), self.order.lines_per_turn() > BLADES_MAX);
+        GivenFacts {
+            vehicle: is_given("/known/shaft_speed"),
+            blades: is_given("/tone/blades") || is_given("/known/blade_count") || is_order_given && !is_mesh,
+            gear: is_order_given && is_mesh,
+            diameter: is_given("/known/diameter_m"),
+            mass: is_given("/known/mass_kg"),
+            band: is_given("/tone/band_hz"),
+            window: is_given("/spectrogram/window_s"),
+        }
     }
 
     fn is_setting_missing(&self, place: &str) -> bool {
@@ -307,11 +355,14 @@ impl SpeedRecord {
         matches!(self.answer, Answer::Failed { .. })
     }
 
-    /// Whether a part of the requested result is missing: no rotor tone, an unsettled order, missing labels, or only the beginning of the
-    /// sound.
+    /// Whether a part of the requested result is missing or doubtful: no rotor tone, an unsettled order, a sound that contradicts the given
+    /// rotors, missing labels, or only the beginning of the sound.
     pub fn is_incomplete(&self) -> bool {
         let has_labels = self.labels.as_ref().is_none_or(|labels| labels.not_told.is_none());
-        self.speed().is_none() || !has_labels || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
+        self.speed().is_none()
+            || self.contradiction().is_some()
+            || !has_labels
+            || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
     }
 
     /// From the start of the first used stretch to the end of the last.

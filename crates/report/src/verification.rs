@@ -6,11 +6,14 @@ use crate::printable::printable;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::version::VERSION;
-use hovertone_analysis::{Agreement, Verification, percent_in_words};
+use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, Verification, percent_in_words};
 use serde::Serialize;
 
 /// Millionths of a share.
 pub(crate) const PPM: f64 = 1e6;
+
+/// Why equal means of steady speeds do not show that the log is of this flight.
+const CLOCKS_NOT_COMPARED: &str = "the speeds change too little to compare the clocks";
 
 /// A verification with the names of its files.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +74,11 @@ fn verdict_in_words(found: &Verification) -> String {
         return format!("failed: {text}; {hint}");
     }
     if let Some(Notice { text, hint }) = undecided_check(found) {
-        return format!("not decided: {text}; {hint}");
+        let limits = match text.contains(CLOCKS_NOT_COMPARED) {
+            true => "; or, if you know the offset of the clocks, give it with --log-offset-s LOW:HIGH",
+            false => "",
+        };
+        return format!("not decided: {text}; {hint}{limits}");
     }
     let percent = percent_of(found);
     let small = match found.agreement {
@@ -81,14 +88,7 @@ fn verdict_in_words(found: &Verification) -> String {
         ),
         _ => String::new(),
     };
-    if found.is_offset_told {
-        format!("passed: order and clock are right; the mean of the heard speeds differs by {percent} %{small}")
-    } else {
-        format!(
-            "passed: the order is right; the mean of the heard speeds differs by {percent} %{small}. The speeds change too little to compare \
-             the clocks, so the log may be of another flight"
-        )
-    }
+    format!("passed: order and clock are right; the mean of the heard speeds differs by {percent} %{small}")
 }
 
 /// The verdict for programs.
@@ -117,26 +117,32 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
 
 /// Why equal means prove nothing, and what to check.
 pub(crate) fn undecided_check(found: &Verification) -> Option<Notice> {
-    let is_undecided = found.is_right() && !found.passes();
-    match found.better_offset_s.filter(|_| is_undecided) {
-        _ if !is_undecided => None,
-        Some(offset_s) => Some(Notice::new(
-            format!(
-                "the log fits better at an offset near {} s, outside of the limits of --log-offset-s",
-                signed(offset_s, 2)
-            ),
-            "give wider limits",
-        )),
-        None => Some(Notice::new(
-            format!(
-                "the means are equal within {} %, but only {} of the points of the heard speeds lie within ± of the log, and 95 % should",
-                fixed(100.0 * (found.speed_ratio - 1.0).abs(), 2),
-                percent_in_words(found.coverage())
-            ),
+    if !found.is_right() || found.passes() {
+        return None;
+    }
+    if let Some(offset_s) = found.better_offset_s {
+        let offset = signed(offset_s, 2);
+        let what = format!("the log fits better at an offset near {offset} s, outside of the limits of --log-offset-s");
+        return Some(Notice::new(what, "give wider limits"));
+    }
+    let means = format!("the means are equal within {} %, but", fixed(100.0 * (found.speed_ratio - 1.0).abs(), 2));
+    let few = format!(
+        "only {} of the points of the heard speeds lie within ± of the log, and 95 % should",
+        percent_in_words(found.coverage())
+    );
+    let is_scattered = found.agreement == Agreement::Scattered;
+    if found.is_offset_told || found.is_offset_given || is_scattered {
+        return Some(Notice::new(
+            format!("{means} {few}"),
             "check that the log is of this flight, and that the offset of the clocks is right; where rotors were not separated, place the \
              microphone nearer",
-        )),
+        ));
     }
+    let also = if found.coverage() < COVERAGE_OF_HALF { format!("; and {few}") } else { String::new() };
+    Some(Notice::new(
+        format!("{means} {CLOCKS_NOT_COMPARED}, so the log may be of another flight{also}"),
+        "record a flight with a few quick climbs, which change the speeds",
+    ))
 }
 
 /// By how much heard speeds differ, in per cent.

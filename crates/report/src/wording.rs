@@ -1,28 +1,39 @@
 //! Advice in the words of a command that says facts in another way than by the flags of `hovertone speed`.
 
-/// What a command has in place of flags that advice names: pairs of a flag, with words around it, and what to say. The first pairs are
-/// replaced first.
+use crate::experiment_key::ExperimentKey;
+
+/// What a command has in place of flags that advice names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wording(pub &'static [(&'static str, &'static str)]);
+pub struct Wording {
+    /// Pairs of a flag, with words around it, and what to say. The first pairs are replaced first.
+    pub phrases: &'static [(&'static str, &'static str)],
+    /// Keys in place of all other flags.
+    pub keys: &'static [ExperimentKey],
+}
 
 impl Wording {
     /// For an experiment file, in which facts have keys.
-    pub const IN_EXPERIMENT: Self = Self(&[
-        ("--from and --to", "from_s and to_s under [[load]]"),
-        ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
-        ("--band", "band_hz under [tone]"),
-        ("--harmonics 1", "harmonics = 1 under [tone]"),
-        ("leave --rotors 1 out", "correct rotors under [vehicle] or rotors_running under [[load]]"),
-        ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
-        ("--rotors", "rotors under [vehicle]"),
-        ("give --blades N", "write blades = N under [vehicle]"),
-        ("give --blades ", "under [vehicle] write blades = "),
-        ("--diameter-m", "propeller_diameter_m under [vehicle]"),
-        ("--mass-kg", "mass_kg under [vehicle]"),
-    ]);
+    pub const IN_EXPERIMENT: Self = Self {
+        phrases: &[
+            ("--from and --to", "from_s and to_s under [[load]]"),
+            ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
+            ("--harmonics 1", "harmonics = 1 under [tone]"),
+            ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
+            ("give --blades N", "write blades = N under [vehicle]"),
+            ("give --blades ", "under [vehicle] write blades = "),
+        ],
+        keys: &ExperimentKey::ALL,
+    };
+
+    /// Some phrases alone.
+    pub const fn of_phrases(phrases: &'static [(&'static str, &'static str)]) -> Self {
+        Self { phrases, keys: &[] }
+    }
 
     /// The advice in these words.
     pub fn of(self, advice: &str) -> String {
-        self.0.iter().fold(advice.to_owned(), |advice, (flag, words)| advice.replace(flag, words))
+        let in_phrases =
+            self.phrases.iter().fold(advice.to_owned(), |advice, (flag, words)| advice.replace(flag, words));
+        self.keys.iter().fold(in_phrases, |advice, key| key.in_place_of_flag(&advice))
     }
 }

@@ -214,7 +214,7 @@ impl ThrustWarning {
                 "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
             }
             Self::VehicleDoesNotFit { .. } => {
-                "do not use this constant: check the name of the vehicle, or give the blades and the gear instead of the name; if the vehicle is right, record it again from nearer"
+                "do not use this constant: check the vehicle, its blades and its gear; if they are right, record it again from nearer"
             }
             Self::RowsDoNotFit { .. } => {
                 "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another propeller"

@@ -3,12 +3,12 @@
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
 use hovertone::sound::Passes;
 use hovertone::speed::{
-    Config, Error, NoTone, Outcome, SpeedAnalysis, ToneConfig, Warning, passes_of_speed, speed_from_passes,
+    Config, Error, Method, NoTone, Outcome, SpeedAnalysis, ToneConfig, Warning, passes_of_speed, speed_from_passes,
 };
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, MediaWarning, Recording};
-use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord, Wording};
-use hovertone_vehicle::{KNOWN_RANGE_MARGIN, Order, check_tips};
+use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord, Wording, significant};
+use hovertone_vehicle::{AIR_KG_M3, KNOWN_RANGE_MARGIN, Order, THRUST_COEFFICIENT, check_tips};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -102,14 +102,60 @@ pub fn hear(
     let follows_a_tone = !is_list && record.tone().is_some() && !record.is_ambiguous();
     let matters = |warning: &&Warning| match warning {
         Warning::HoverShorterThanSample { .. } => task.wants_samples,
+        // the others suffice, and nobody has to do anything
+        Warning::HarmonicLeftOut { harmonic, .. } if *harmonic > 1 => false,
         other => follows_a_tone || !other.is_about_followed_tone(),
     };
-    let of_analysis = record.analysis().into_iter().flat_map(|analysis| &analysis.warnings).filter(matters);
-    record.notices = notices_of(recording).into_iter().chain(of_analysis.map(Notice::from)).collect();
+    let of_analysis: Vec<&Warning> =
+        record.analysis().into_iter().flat_map(|analysis| &analysis.warnings).filter(matters).collect();
+    let hints = record.given_facts().hints(&of_analysis);
+    let of_analysis = of_analysis.into_iter().zip(hints).map(|(warning, hint)| Notice::new(warning.to_string(), hint));
+    record.notices = notices_of(recording).into_iter().chain(of_analysis).collect();
     record.notices.extend(notice_of_reading(&record).filter(|_| follows_a_tone));
+    record.notices.extend(notice_of_one_tone(&record, &config));
+    // an experiment tests the thrust of its constant, and a search leaves such speeds out
+    if !task.wants_samples && task.discovery.is_none() {
+        record.notices.extend(notice_of_thrust(&record, &config));
+    }
     let diameter_m = config.known.diameter_m.or(task.discovery.and_then(|discovery| discovery.known.diameter_m));
     record.notices.extend(notice_of_tips(&record, diameter_m));
     Ok(Heard { record, config, spin_up })
+}
+
+/// That one tone stands for all rotors where nobody asked to separate them. Where they could not be separated, a warning says it.
+fn notice_of_one_tone(record: &SpeedRecord, config: &Config) -> Option<Notice> {
+    let rotors = &config.rotors;
+    if config.method == Method::Separated || !rotors.is_count_known || rotors.count < 2 {
+        return None;
+    }
+    let share = record.speed()?.rotors_std_share();
+    let text = format!(
+        "one tone is used for all {} rotors. It may come from one rotor alone, and the ± assumes that this rotor differs from their mean \
+         by {:.1} % (standard deviation)",
+        rotors.count,
+        100.0 * share
+    );
+    let hint = match config.method {
+        Method::Harmonic => "to hear each rotor, do not ask for the mean alone (--mean-only, or --method harmonic)",
+        _ => "to hear each rotor, leave --method out",
+    };
+    (share > 0.0).then(|| Notice::new(text, hint))
+}
+
+/// That the vehicle could not hover at the heard speed, where the sound does not show it by itself.
+fn notice_of_thrust(record: &SpeedRecord, config: &Config) -> Option<Notice> {
+    let speed_rev_s = record.speed().filter(|_| record.contradiction().is_none())?.speed.rev_s();
+    let coefficient = config.known.hover_thrust_coefficient(speed_rev_s, AIR_KG_M3)?;
+    let (low, high) = (THRUST_COEFFICIENT.start(), THRUST_COEFFICIENT.end());
+    // on a bench, one rotor carries nothing
+    let is_foreign = config.rotors.count > 1 && !THRUST_COEFFICIENT.contains(&coefficient);
+    let text = format!(
+        "the vehicle does not hover at {speed_rev_s:.1} rev/s: its diameter, mass and number of rotors mean a thrust coefficient of {} there, \
+         and propellers have {low} to {high}",
+        significant(coefficient, 2)
+    );
+    let hint = format!("if it hovers in this recording, check {}", record.given_facts().in_words("and"));
+    is_foreign.then(|| Notice::new(text, hint))
 }
 
 /// That the blade tips would be too fast at the heard speed.

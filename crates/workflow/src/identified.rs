@@ -1,13 +1,13 @@
 //! An experiment whose recordings were heard: the fits of its loads, and what is said of them.
 
 use hovertone::experiment::Experiment;
-use hovertone::speed::{Method, NoTone, Outcome, SpeedEstimate, Warning};
+use hovertone::speed::{Method, SpeedEstimate};
 use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, ThrustWarning, TrialSpeeds, thrust_from_loads};
 use hovertone_page::names_of;
 use hovertone_report::{
-    ExperimentFacts, Identification, InputRecord, LOADS_FOOTNOTE, SpeedRecord, Verdict, adequacy_text, counted,
-    flight_log_tables, printable, quoted_constants, rotors_heard_text, table_text, thrust_summary, thrust_table,
-    tone_of_order, vehicle_model_text, warning_count,
+    Contradicted, ExperimentFacts, Identification, InputRecord, LOADS_FOOTNOTE, SpeedRecord, Verdict, adequacy_text,
+    counted, flight_log_tables, printable, quoted_constants, rotors_heard_text, table_text, thrust_summary,
+    thrust_table, tone_of_order, vehicle_model_text, warning_count,
 };
 use hovertone_vehicle::{Contradiction, check_tips};
 use serde_json::Value;
@@ -200,19 +200,8 @@ impl Identified {
 
 /// The warning that most recordings say that another rotor sounds than that of the vehicle.
 fn vehicle_does_not_fit(inputs: &[InputRecord]) -> Option<ThrustWarning> {
-    let has_warning = |input: &&InputRecord, is_meant: &dyn Fn(&Warning) -> bool| {
-        input.record.unambiguous_analysis().is_some_and(|analysis| analysis.warnings.iter().any(is_meant))
-    };
-    let is_elsewhere = |warning: &Warning| matches!(warning, Warning::FitsElsewhere(_));
-    let is_other = |input: &&InputRecord| {
-        let outcome = input.record.analysis().map(|analysis| &analysis.outcome);
-        let is_silent_for_it =
-            matches!(outcome, Some(Outcome::NoRotorTone { reason: NoTone::NoSeries { instead: Some(_), .. } }));
-        is_silent_for_it || has_warning(input, &is_elsewhere)
-    };
-    let elsewhere = inputs.iter().filter(is_other).count();
-    let is_hardly_heard = |input: &&InputRecord| !is_other(input) && has_warning(input, &Warning::is_hardly_heard);
-    let hardly_heard = inputs.iter().filter(is_hardly_heard).count();
+    let count = |meant| inputs.iter().filter(|input| input.record.contradiction() == Some(meant)).count();
+    let (hardly_heard, elsewhere) = (count(Contradicted::HardlyHeard), count(Contradicted::ByAnotherRotor));
     let of = inputs.iter().filter(|input| input.record.analysis().is_some()).count();
     (2 * (hardly_heard + elsewhere) > of).then_some(ThrustWarning::VehicleDoesNotFit { hardly_heard, elsewhere, of })
 }

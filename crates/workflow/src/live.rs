@@ -6,7 +6,7 @@ use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
 
 /// Sound that arrives has no parts to choose.
-const LIVE: Wording = Wording(&[
+const LIVE: Wording = Wording::of_phrases(&[
     (", or choose a steady part with --from and --to", ""),
     ("; choose a longer or steadier part with --from and --to", ""),
     ("; if a rotor is among them, choose its part with --from and --to", ""),

@@ -200,7 +200,8 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
             let number = blades.map_or("N".to_owned(), |blades| blades.to_string());
             format!(
                 "{heard}. The speed, {rpm:.0} rpm, comes from other lines, such as the blade pass. If the rotor has {number} blades and no gear, \
-                 give --blades {number} alone, in place of the vehicle, the gear and the order; if it has this gear, move the microphone nearer"
+                 give --blades {number} alone, in place of {}; if it has this gear, move the microphone nearer",
+                record.given_facts().in_words("and")
             )
         }
     })

@@ -2,6 +2,7 @@
 
 use crate::args::{Typed, rounded, typed_mass_kg};
 use crate::failure::Failure;
+use crate::meant::{DECIMAL_SIGN, with_point};
 use hovertone_vehicle::{KnownRotor, MASS_ALONE_KG_MAX};
 use std::path::Path;
 
@@ -41,6 +42,9 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
             let what = format!("--mass {word}: the unit \"{unit}\" of a mass is not known");
             return Err(Failure::usage(what, "write kilograms, such as 0.413, or grams, such as 413g"));
         }
+        if let Some(point) = file.filter(|_| mass.is_none()).and_then(mass_with_point) {
+            return Err(Failure::usage(format!("--mass {word}: {DECIMAL_SIGN}"), format!("write --mass {point}")));
+        }
         let Some(mass_kg) = current_kg else {
             let what = match word.split_once('=') {
                 Some((mass, _)) => format!("\"{mass}\" is no mass"),
@@ -77,7 +81,7 @@ pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let is_positive = |typed: &Typed| typed.si.is_finite() && typed.si > 0.0;
     let Typed { si: mass_kg, has_unit } = typed_mass_kg(text).filter(is_positive).ok_or_else(|| {
-        let point = if text.contains(',') { "; the decimal sign is a point" } else { "" };
+        let point = if text.contains(',') { format!("; {DECIMAL_SIGN}") } else { String::new() };
         format!("\"{text}\" is no mass: write kilograms, such as 0.413, or grams, such as 413g{point}")
     })?;
     if !has_unit && mass_kg > MASS_ALONE_KG_MAX {
@@ -102,6 +106,11 @@ fn unknown_unit(word: &str) -> Option<&str> {
     let is_unit = !unit.is_empty() && unit.chars().all(char::is_alphabetic) && number.parse::<f64>().is_ok();
     // a recording has a point before its ending
     (is_unit && !number.ends_with('.') && !Path::new(word).exists()).then_some(unit)
+}
+
+/// A mass with a decimal comma, where the word is no file, with a point.
+fn mass_with_point(word: &str) -> Option<String> {
+    with_point(word).filter(|point| is_mass(point) && !Path::new(word).exists())
 }
 
 fn is_mass(word: &str) -> bool {
@@ -147,6 +156,8 @@ mod tests {
             (&["0.413="], "no recording"),
             (&["0.413", "0.444=b.mov"], "413 g: no recording"),
             (&["0,413=a.mov"], "the decimal sign is a point"),
+            (&["0,413", "a.mov"], "--mass 0,413: the decimal sign is a point"),
+            (&["0.413", "a.mov", "0,462kg", "b.mov"], "--mass 0,462kg: the decimal sign is a point"),
             (&["413=a.mov"], "413g"),
             (&["-0.4=a.mov"], "is no mass"),
             (&["0.0005=a.mov"], "mass_kg = 0.0005, and it must be from 0.001"),

@@ -18,7 +18,7 @@ use crate::terminal::Terminal;
 use hovertone_dynamics::{YawInertia, advice_of, checked, torque_constant};
 use hovertone_figures::{DOTS_PER_INCH, DrawnSpeeds, grey_box_figure};
 use hovertone_logs::RateAxes;
-use hovertone_report::{CheckedFlight, GreyBoxRecord, grey_box_json, grey_box_text, grey_box_warnings};
+use hovertone_report::{CheckedFlight, GreyBoxRecord, Notice, grey_box_json, grey_box_text, grey_box_warnings};
 use std::path::{Path, PathBuf};
 
 /// Fits, prints, and writes what was asked for.
@@ -45,7 +45,14 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     let compared =
         other.as_ref().zip(checked_speeds.as_ref()).map(|(files, speeds)| OtherFlight { files, speeds, moved_s });
     let record = record_of(&files, &flown, &heard, &vehicle, compared);
-    let warnings = grey_box_warnings(&record);
+    let losses: Vec<Notice> = [Some(&flown), other_flown.as_ref()]
+        .into_iter()
+        .flatten()
+        .filter_map(|flown| flown.loss.as_ref())
+        .map(|words| loss_notice(words))
+        .collect();
+    let warnings: Vec<Notice> =
+        grey_box_warnings(&record).into_iter().chain(losses.iter().cloned()).chain(flown.left_out.clone()).collect();
     terminal.warning_count(warnings.len());
     warnings.iter().for_each(|notice| terminal.warning(notice, ""));
     match arguments.json {
@@ -66,10 +73,6 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
         outputs.write(place, kind.bytes(figure, DOTS_PER_INCH)?)?;
         terminal.say(&written(place));
     }
-    let losses: Vec<&String> =
-        [Some(&flown), other_flown.as_ref()].into_iter().flatten().filter_map(|flown| flown.loss.as_ref()).collect();
-    losses.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
-    flown.left_out.iter().for_each(|notice| terminal.warning(notice, ""));
     Ok(if losses.is_empty() { Ending::Done } else { Ending::Incomplete })
 }
 

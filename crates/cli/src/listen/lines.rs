@@ -17,14 +17,19 @@ pub(crate) fn json_line(speed: &LiveSpeed, listener: &Listener) -> Result<String
 }
 
 /// Lines of text: the names of the columns, one line for each second, and a summary.
-#[derive(Default)]
 pub(crate) struct PlainLines {
+    /// What to do where several speeds are possible.
+    advice: String,
     count: usize,
     last_status: String,
     summary: LiveSummary,
 }
 
 impl PlainLines {
+    pub(crate) fn new(advice: String) -> Self {
+        Self { advice, count: 0, last_status: String::new(), summary: LiveSummary::default() }
+    }
+
     /// The line of a speed; `None` for those between. A remark is written where it changes.
     pub(crate) fn line(&mut self, speed: &LiveSpeed, remark: &str) -> Option<String> {
         self.summary.add(speed);
@@ -54,6 +59,6 @@ impl PlainLines {
 
     /// The closing line; `None` if nothing was heard.
     pub(crate) fn closing_line(&self) -> Option<String> {
-        self.summary.in_words()
+        self.summary.in_words(&self.advice)
     }
 }

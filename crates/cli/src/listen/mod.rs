@@ -1,5 +1,6 @@
 //! `hovertone listen`: rotor speed of sound as it arrives.
 
+mod advice;
 mod lines;
 #[cfg(feature = "microphone")]
 mod microphone;
@@ -11,6 +12,7 @@ mod view;
 
 use crate::args::{AnalysisArguments, ListenArguments};
 use crate::failure::{Ending, Failure};
+use crate::listen::advice::which_is_right;
 use crate::settings::{config_of, idle_mass};
 use crate::terminal::Terminal;
 use hovertone::live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
@@ -45,13 +47,14 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         terminal.tip(&notice);
     }
     let mut sound = LiveSound::open(arguments.from_file.as_deref(), arguments.channel)?;
+    let advice = which_is_right(&config, discovery.as_ref());
     let config = LiveConfig::of_analysis(config, discovery);
     let block_samples = (config.every_s * sound.sample_rate_hz()) as usize;
     let mut listener = Listener::new(sound.sample_rate_hz(), config).map_err(unheard)?;
     let mut output = match (arguments.json, arguments.plain || !stdout().is_terminal()) {
         (true, _) => Output::Json,
-        (false, true) => Output::Plain(PlainLines::default()),
-        (false, false) => Output::Screen(Box::new(Screen::open()?), Box::new(View::new(sound.name()))),
+        (false, true) => Output::Plain(PlainLines::new(advice)),
+        (false, false) => Output::Screen(Box::new(Screen::open()?), Box::new(View::new(sound.name(), advice))),
     };
     let pace = Pace::new(arguments.speed);
     let (mut has_told, mut too_fast) = (false, None);

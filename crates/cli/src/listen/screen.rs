@@ -179,7 +179,7 @@ fn draw_choices(frame: &mut Frame<'_>, area: Rect, view: &View) {
     if view.choices.is_empty() {
         return;
     }
-    let first = Line::from(" Which one is right? Press its number, or start again with --diameter-m and --mass-kg.");
+    let first = Line::from(format!(" Which one is right? Press its number, or start again: {}.", view.advice));
     let line = |(index, choice): (usize, &String)| Line::from(format!("   {}  {choice}", index + 1));
     let lines = std::iter::once(first).chain(view.choices.iter().take(9).enumerate().map(line));
     frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()).yellow(), area);
@@ -279,7 +279,7 @@ mod tests {
     }
 
     fn view_of(speed_rev_s: Option<f64>) -> View {
-        let mut view = View::new("hover.wav".to_owned());
+        let mut view = View::new("hover.wav".to_owned(), "give --rotors".to_owned());
         for n in 0..300 {
             view.take(LiveSpeed {
                 time_s: 0.1 * f64::from(n),

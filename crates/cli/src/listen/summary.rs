@@ -42,7 +42,9 @@ impl LiveSummary {
     ///
     /// The errors of live speeds are those of the same reviews, so they do not average out: the standard uncertainty of the mean is the mean of the
     /// standard uncertainties, which is its value for errors that are all equal and an upper bound for all others.
-    pub(crate) fn in_words(&self) -> Option<String> {
+    ///
+    /// `advice` says what to do where several speeds are possible.
+    pub(crate) fn in_words(&self, advice: &str) -> Option<String> {
         if self.count == 0 {
             return None;
         }
@@ -69,7 +71,7 @@ impl LiveSummary {
         if self.ambiguous_count > 0 {
             words += &format!("; for {} s several speeds are possible", part_s(self.ambiguous_count));
             if self.settled_count == 0 {
-                words += "; to find the right one, give --blades or --diameter-m too";
+                words += &format!("; to find the right one, {advice}");
             }
         }
         Some(words + "\n")
@@ -97,12 +99,12 @@ mod tests {
 
     #[test]
     fn the_mean_is_over_the_time_that_had_one_speed() {
-        let sentence = summary_of(&[None, Some(60.0), Some(61.0), None]).in_words().unwrap();
+        let sentence = summary_of(&[None, Some(60.0), Some(61.0), None]).in_words("give --rotors").unwrap();
         assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (k = 2), from 0.2 s of 0.4 s\n");
         let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s; it was heard in 0.3 s of 0.3 s\n";
-        assert_eq!(summary_of(&[Some(52.8), Some(91.8), Some(70.0)]).in_words().unwrap(), changed);
-        assert_eq!(summary_of(&[None; 20]).in_words().unwrap(), "no speed was heard in 2.0 s\n");
-        assert_eq!(summary_of(&[]).in_words(), None);
+        assert_eq!(summary_of(&[Some(52.8), Some(91.8), Some(70.0)]).in_words("give --rotors").unwrap(), changed);
+        assert_eq!(summary_of(&[None; 20]).in_words("give --rotors").unwrap(), "no speed was heard in 2.0 s\n");
+        assert_eq!(summary_of(&[]).in_words("give --rotors"), None);
     }
 
     #[test]
@@ -120,12 +122,12 @@ mod tests {
                     clipped_share: 0.0,
                 });
             }
-            summary.in_words().unwrap()
+            summary.in_words("give --rotors").unwrap()
         };
         use LiveStatus::{Ambiguous, Listening, Ok};
         assert_eq!(of_status(&[Listening; 2]), "2.0 s are too short for a first speed\n");
-        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible; to find the right one, give --blades or \
-        --diameter-m too\n";
+        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible; to find the right one, \
+        give --rotors\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ambiguous]), none);
         let some = "mean: 60.00 ± 0.20 rev/s (k = 2), from 1.0 s of 3.0 s; for 1.0 s several speeds are possible\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ok]), some);

@@ -22,10 +22,12 @@ pub(crate) struct View {
     /// Why no rotor is heard, or why the speed is doubtful.
     pub(crate) remark: String,
     pub(crate) is_frozen: bool,
+    /// What to do where several speeds are possible.
+    pub(crate) advice: String,
 }
 
 impl View {
-    pub(crate) fn new(source: String) -> Self {
+    pub(crate) fn new(source: String, advice: String) -> Self {
         Self {
             source,
             now: None,
@@ -34,6 +36,7 @@ impl View {
             choices: Vec::new(),
             remark: String::new(),
             is_frozen: false,
+            advice,
         }
     }
 
@@ -78,7 +81,7 @@ mod tests {
 
     #[test]
     fn the_strip_holds_a_minute_and_a_frozen_screen_stays() {
-        let mut view = View::new("x.wav".to_owned());
+        let mut view = View::new("x.wav".to_owned(), String::new());
         (0..900).for_each(|n| view.take(speed(0.1 * f64::from(n), (n % 2 == 0).then_some(100.0))));
         assert!(view.strip.len() == 300 || view.strip.len() == 301, "{}", view.strip.len());
         view.is_frozen = true;

@@ -5,7 +5,6 @@ use super::StoredRecording;
 #[cfg(feature = "archive")]
 use crate::failure::Failure;
 use hovertone_media::{MediaError, OpenOptions, Recording};
-use std::io;
 use std::path::Path;
 #[cfg(feature = "archive")]
 use std::path::PathBuf;
@@ -44,5 +43,6 @@ pub(crate) fn state_of(_: &Path) -> String {
 
 /// Opens nothing.
 pub(crate) fn opened(_: &Path, _: &OpenOptions) -> Result<Recording, MediaError> {
-    Err(MediaError::Read(io::Error::other(WHAT)))
+    let advice = "copy the file to a disk, or build hovertone with stores: cargo build --release --features stores";
+    Err(MediaError::AtAddress(format!("{WHAT}, and reads no addresses; {advice}")))
 }

@@ -168,3 +168,53 @@ fn a_speed_at_which_the_vehicle_cannot_hover_makes_no_mass_ambiguous() {
     let run = hovertone(&[&weigh[..], &["--mass-kg", "0.45"]].concat()).ends_with(0);
     assert!(run.stdout.contains("mass as flown: 500"), "{}", run.stdout);
 }
+
+/// The answer stands, since the person may know better, but the exit code says that it is doubtful.
+#[test]
+fn a_speed_of_a_vehicle_that_the_sound_contradicts_ends_with_3() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
+    hovertone(&["speed", text(&sound), "--vehicle", "ardrone"]).ends_with(0);
+    let run = hovertone(&["speed", text(&sound), "--vehicle", "crazyflie"]).ends_with(3);
+    let is_said =
+        ["contradicts the given facts", "no such rotor is heard"].iter().any(|word| run.stderr.contains(word));
+    assert!(is_said, "{}", run.stderr);
+    // what was not given is not to be checked
+    for fact in ["the diameter", "the mass", "the band", "the gear"] {
+        assert!(!run.stderr.contains(&format!("check {fact}")) && !run.stderr.contains(&format!("and {fact}")));
+    }
+}
+
+/// A tone that replaces the tone of the results also leaves their range of speeds behind.
+#[test]
+fn a_speed_that_the_vehicle_of_a_constant_cannot_have_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = results_of_four_rotors(folder.path());
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_hover("crazyflie", RotorSpeed::from_rev_s(250.0), 5.0));
+    let run = hovertone(&["weigh", text(&sound), "--constant", text(&results), "--blades", "2"]).ends_with(3);
+    for words in ["the rotors behind the constant turn at 13 to 120 rev/s", "leave --blades out"] {
+        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+    }
+    assert!(run.stdout.contains("do not use this mass"), "{}", run.stdout);
+    // without the flag, no advice leads to it
+    let alone = hovertone(&["weigh", text(&sound), "--constant", text(&results)]).ends_with(3).stderr;
+    assert!(!alone.contains("give --blades") && !alone.contains("check the blades"), "{alone}");
+    let counted = run.stderr.matches("warning: ").count();
+    assert_eq!(run.stderr.matches(&format!("{counted} warning")).count(), 1, "{}", run.stderr);
+}
+
+/// The blades are given, so that nothing was searched for: the speed is still compared with what carries the vehicle.
+#[test]
+fn a_speed_at_which_the_vehicle_cannot_hover_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
+    let facts = ["--blades", "2", "--rotors", "4", "--diameter-m", "0.2"];
+    let heard = |mass: &str| hovertone(&[&["speed", text(&sound), "--mass-kg", mass], &facts[..]].concat()).stderr;
+    let heavy = heard("0.9");
+    let is_said = ["does not hover at 61.3 rev/s", "contradict"].iter().any(|words| heavy.contains(words));
+    assert!(is_said, "{heavy}");
+    assert!(!heard("0.413").contains("does not hover"));
+}

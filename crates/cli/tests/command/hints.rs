@@ -1,6 +1,7 @@
 //! What a message advises fits the fault, and works.
 
-use crate::testkit::{hovertone, recordings, refused_with, text, write_noise};
+use crate::testkit::{hovertone, recordings, refused_with, steady_hover, text, write_hover, write_noise};
+use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::path::Path;
 
@@ -96,7 +97,7 @@ fn a_bench_is_asked_for_a_band_and_for_no_mass_first() {
     let Some(bench) = recordings("crazyflie-propeller") else { return };
     let sound = bench.join("64000.wav");
     let said = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&sound)]).ends_with(3).stderr;
-    assert!(said.contains("on a bench, give --band LOW:HIGH around the blade pass"), "{said}");
+    assert!(said.contains("on a bench, give the band of the blade pass with --band LOW:HIGH"), "{said}");
     let band = ["speed", "--blades", "2", "--rotors", "1", "--band", "780:840", text(&sound)];
     hovertone(&band).ends_with(0);
 }
@@ -117,4 +118,22 @@ fn a_recording_that_cannot_be_read_is_no_warning() {
     let load = "413g=".to_owned() + &written(folder.path(), "x.wav", "no sound");
     let run = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(1);
     assert!(!run.stderr.contains("0 warnings"), "{}", run.stderr);
+}
+
+#[test]
+fn what_cannot_be_heard_is_told_in_plain_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("a.wav");
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 5.0));
+    let part = hovertone(&["speed", text(&sound), "--blades", "2", "--to", "0.3"]).ends_with(3).stderr;
+    assert!(part.contains("too short to hear a rotor") && !part.contains("hover for ten seconds"), "{part}");
+    refused_with(
+        &["speed", text(&sound), "--blades", "2", "--band", "200:100"],
+        &["write the lower edge first: 100:200"],
+    );
+    let table = written(folder.path(), "t.csv", "speed_rpm,thrust_n\n1,2\n");
+    failed_with(&["speed", &table, "--blades", "2"], &["(it is text)"]);
+    // no step, and no speed that is held: what to do
+    let motor = hovertone(&["motor", text(&sound), "--from", "4", "--to", "5"]).ends_with(3).stdout;
+    assert!(!motor.contains("no speed is held") || motor.contains("choose a longer part"), "{motor}");
 }

@@ -198,8 +198,13 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ),
         (
             "identify --vehicle ardrone hover.mov",
-            "error: --vehicle cannot be used with EXPERIMENT.toml (hint: recordings without an experiment file need the mass before them, as in \
-             --mass 413g hover.mov)",
+            "error: the mass that hovers in the recording is missing (hint: write each recording directly behind its mass, as in --mass 413g \
+             hover.mov)",
+        ),
+        (
+            "identify --mass 413g --vehicle ardrone hover.mov",
+            "error: a file stands apart from its mass, so that it counts as the experiment file (hint: write each recording directly behind its \
+             mass, as in --mass 413g hover.mov, and all other flags before --mass)",
         ),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
         (

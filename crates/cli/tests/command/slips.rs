@@ -37,6 +37,11 @@ fn init_by_flags_writes_what_identify_can_read() {
 fn a_slip_of_a_mass_or_a_comma_is_named() {
     let check = ["identify", "--vehicle", "ardrone", "--mass", "41.3g=a.wav", "--mass", "444g=b.wav", "--check"];
     refused_with(&check, &["the vehicle \"ardrone\" weighs 413 g", "check --mass 41.3 g"]);
+    let comma = ["identify", "--vehicle", "ardrone", "--mass", "0,413", "a.wav"];
+    refused_with(&comma, &["--mass 0,413: the decimal sign is a point", "write --mass 0.413"]);
+    refused_with(&["speed", "a.wav", "--mass-kg", "0,413kg"], &["the decimal sign is a point", "write 0.413kg"]);
+    refused_with(&["speed", "a.wav", "--band", "100,5:200"], &["the decimal sign is a point", "write 100.5:200"]);
+    refused_with(&["speed", "a.wav", "--gear", "8,69"], &["write the teeth as PINION:WHEEL"]);
     let place = ["identify", "--vehicle", "ardrone", "--mass", "413g=a.wav", "--latitude-deg", "-20,3"];
     refused_with(&place, &["--latitude-deg -20,3: the decimal sign is a point", "write -20.3"]);
 }

@@ -113,11 +113,11 @@ fn noise_has_no_rotor_tone_and_ends_with_3() {
         ),
         (
             &["--vehicle", "crazyflie"],
-            "no rotor is heard at 136 to 626 rev/s, where the given facts expect it; check these facts, such as the vehicle or the band",
+            "no rotor is heard at 136 to 626 rev/s, where the given facts expect it; check the vehicle, or move the microphone",
         ),
         (
             &["--blades", "2", "--band", "200:300"],
-            "no rotor is heard at 100 to 150 rev/s, where the given facts expect it; check these facts, such as the vehicle or the band",
+            "no rotor is heard at 100 to 150 rev/s, where the given facts expect it; check the blades and the band, or move the",
         ),
     ] {
         let run = hovertone(&[&["speed", text(&path)], said].concat()).ends_with(3);
@@ -255,4 +255,22 @@ fn a_mesh_above_the_sample_rate_is_told_what_else_tells_the_speed() {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
     assert!(!run.stderr.contains("higher sample rate"), "{}", run.stderr);
+}
+
+/// The ± of one tone assumes how far a rotor is from their mean, also where nobody asked to separate them.
+#[test]
+fn the_mean_alone_says_what_its_uncertainty_assumes() {
+    let folder = Folder::new();
+    let path = folder.path("hover.wav");
+    write_hover(&path, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 5.0));
+    let heard =
+        |more: &[&str]| hovertone(&[&["speed", text(&path), "--blades", "2"], more].concat()).ends_with(0).stderr;
+    for (more, hint) in [
+        (&["--rotors", "4", "--mean-only"][..], "do not ask for the mean alone"),
+        (&["--rotors", "4", "--method", "maximum_trace"], "leave --method out"),
+    ] {
+        let said = heard(more);
+        assert!(said.contains("one tone is used for all 4 rotors") && said.contains(hint), "{said}");
+    }
+    assert!(!heard(&["--rotors", "1"]).contains("one tone is used"));
 }

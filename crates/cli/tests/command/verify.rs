@@ -1,6 +1,7 @@
 //! `hovertone verify`: sound of a simulated flight against a log of it.
 
-use crate::testkit::{flown_hover, hovertone, refused_with, text};
+use crate::testkit::{flown_hover, hovertone, refused_with, steady_hover, text, write_hover};
+use hovertone_vehicle::RotorSpeed;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -79,6 +80,27 @@ fn a_wrong_offset_and_another_flight_do_not_pass() {
     let run = hovertone(&[&asked[..], &[&limits, "--json"]].concat()).ends_with(3);
     let line = run.json_lines().remove(0);
     assert!(line["status"] == "not_decided" && line["coverage"].as_f64().unwrap() < 0.68, "{line}");
+}
+
+/// Steady speeds agree with the log of any flight: only a given offset shows that it is this one.
+#[test]
+fn steady_speeds_do_not_show_whose_log_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, log) = (folder.path().join("hover.wav"), folder.path().join("log.csv"));
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
+    let rows: String = (0..60).map(|row| format!("{:.1},3678,3678,3678,3678\n", 0.1 * f64::from(row))).collect();
+    fs::write(&log, format!("time_s,rotor1_rpm,rotor2_rpm,rotor3_rpm,rotor4_rpm\n{rows}")).unwrap();
+    let asked = ["verify", text(&sound), text(&log), "--vehicle", "ardrone", "--mean-only"];
+    let run = hovertone(&asked).ends_with(3);
+    for words in
+        ["not decided: ", "change too little to compare the clocks", "another flight", "--log-offset-s LOW:HIGH"]
+    {
+        assert!(run.stdout.contains(words), "{words}: {}", run.stdout);
+    }
+    let line = hovertone(&[&asked[..], &["--json"]].concat()).ends_with(3).json_lines().remove(0);
+    assert!(line["status"] == "not_decided" && line["is_offset_told"] == false, "{line}");
+    let run = hovertone(&[&asked[..], &["--log-offset-s=-0.2:0.2"]].concat()).ends_with(0);
+    assert!(run.stdout.contains("passed: order and clock are right"), "{}", run.stdout);
 }
 
 #[test]

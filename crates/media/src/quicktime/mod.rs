@@ -161,7 +161,8 @@ fn cut_in_text(kind: Option<[u8; 4]>) -> String {
     kind.map(|kind| format!(" and ends inside its {} box", name(kind))).unwrap_or_default()
 }
 
-/// A four-character code as text.
+/// A four-character code as text. Bytes that are no letters are the mark of damage, and no name.
 fn name(kind: [u8; 4]) -> String {
-    format!("'{}'", kind.escape_ascii())
+    let is_text = kind.iter().all(|byte| byte.is_ascii_graphic() || *byte == b' ');
+    if is_text { format!("'{}'", kind.escape_ascii()) } else { "nameless".to_owned() }
 }

@@ -1,14 +1,11 @@
 //! Whether heard and logged speeds agree as well as the stated ± promises.
 
-use hovertone_analysis::{Agreement, VerifiedRotor};
+use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, VerifiedRotor};
 use hovertone_signal::statistics::{std, std_uncertainty_of_mean};
 use statrs::function::beta::beta_reg;
 
 /// Share of points within ± (k = 2) where the ± is right and errors are normal: P(|z| < 2). *Physics.*
 const COVERAGE: f64 = 0.9545;
-/// The same where the true ± is twice the stated: P(|z| < 1). Below it, sound and log are not of the same speeds. Of rotors that are separated,
-/// the measured coverage is 0.85 to 0.9 (`docs/verify.md`). *Decision.*
-const COVERAGE_OF_HALF: f64 = 0.6827;
 /// Chance that a coverage is called too small by chance. *Decision.*
 const CHANCE: f64 = 0.01;
 

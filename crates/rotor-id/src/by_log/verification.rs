@@ -127,6 +127,7 @@ pub fn verification_from_log(
     Ok(Verification {
         offset_s,
         is_offset_told,
+        is_offset_given: offsets_s.is_some(),
         better_offset_s,
         agreement: agreement_of(&rotors),
         clock_rate_share: comparison.clock_rate_share(offset_s),

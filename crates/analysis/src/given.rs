@@ -1,0 +1,131 @@
+//! Facts that a person gave before a recording was heard. Advice names those, and no others.
+
+use crate::Warning;
+
+/// Which facts were given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GivenFacts {
+    /// A known vehicle, with its blades, its gear, its diameter and its mass.
+    pub vehicle: bool,
+    /// The blades.
+    pub blades: bool,
+    /// The gear.
+    pub gear: bool,
+    /// The diameter of the propellers.
+    pub diameter: bool,
+    /// The mass.
+    pub mass: bool,
+    /// The band of the tone.
+    pub band: bool,
+    /// The length of the frames.
+    pub window: bool,
+}
+
+impl GivenFacts {
+    /// "the blades, the mass or the band"; "the given facts" where none is known. `last` is the word before the last fact.
+    pub fn in_words(self, last: &str) -> String {
+        let facts = [
+            (self.vehicle, "the vehicle"),
+            (self.blades && !self.vehicle, "the blades"),
+            (self.gear && !self.vehicle, "the gear"),
+            (self.diameter && self.mass && !self.vehicle, "the facts about the vehicle"),
+            (self.diameter && !self.mass && !self.vehicle, "the diameter"),
+            (self.mass && !self.diameter && !self.vehicle, "the mass"),
+            (self.band, "the band"),
+        ];
+        let given: Vec<&str> = facts.into_iter().filter(|(is_given, _)| *is_given).map(|(_, fact)| fact).collect();
+        match given.split_last() {
+            None => "the given facts".to_owned(),
+            Some((only, [])) => (*only).to_owned(),
+            Some((end, others)) => format!("{} {last} {end}", others.join(", ")),
+        }
+    }
+
+    /// Advice for each warning about one recording. It asks for one change of a window or a band at most, since that may mend all.
+    pub fn hints(self, warnings: &[&Warning]) -> Vec<String> {
+        let is_band_wrong = self.band
+            && warnings.iter().any(|warning| {
+                matches!(
+                    warning,
+                    Warning::RidgeOnBandEdge { .. } | Warning::ManyGaps { .. } | Warning::FitsElsewhere(_)
+                )
+            });
+        let is_about_ridge = |warning: &Warning| {
+            matches!(
+                warning,
+                Warning::RidgeOnBandEdge { .. }
+                    | Warning::HarmonicLeftOut { .. }
+                    | Warning::FewHarmonicsAgree { .. }
+                    | Warning::ManyGaps { .. }
+                    | Warning::FewFrames { needed_s: None, .. }
+                    | Warning::SeveralLines { .. }
+            )
+        };
+        let hint = |warning: &&Warning| match warning {
+            Warning::FitsElsewhere(_) => format!("check {}", self.in_words("and")),
+            warning if self.window && is_about_ridge(warning) => {
+                "leave --window-s out: hovertone then chooses a window that fits the tone".to_owned()
+            }
+            warning if is_band_wrong && is_about_ridge(warning) => "leave --band out, or give a wider one".to_owned(),
+            Warning::FewHarmonicsAgree { .. } if self.band => {
+                format!("{}, or give a narrower --band", warning.hint())
+            }
+            Warning::SeveralLines { .. } if self.band => {
+                "the result follows the loudest rotor of each moment; to follow one rotor, give a narrower --band"
+                    .to_owned()
+            }
+            other => other.hint().to_owned(),
+        };
+        warnings.iter().map(hint).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_given_facts_are_named() {
+        let nothing = GivenFacts::default();
+        assert_eq!(nothing.in_words("and"), "the given facts");
+        let all = GivenFacts {
+            vehicle: true,
+            blades: true,
+            gear: true,
+            diameter: true,
+            mass: true,
+            band: true,
+            window: true,
+        };
+        assert_eq!(all.in_words("and"), "the vehicle and the band");
+        let alone = GivenFacts { blades: true, mass: true, band: true, ..nothing };
+        assert_eq!(alone.in_words("or"), "the blades, the mass or the band");
+        let by_numbers = GivenFacts { diameter: true, mass: true, ..nothing };
+        assert_eq!(by_numbers.in_words("and"), "the facts about the vehicle");
+    }
+
+    /// One warning would ask for a wider band, another for a narrower one, and a third for none.
+    #[test]
+    fn advice_about_a_band_does_not_contradict_itself() {
+        let warnings = [
+            Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5 },
+            Warning::FewHarmonicsAgree { used: 1, of: 3 },
+            Warning::ManyGaps { gap_share: 0.4 },
+            Warning::SeveralLines { spread_share: 0.02 },
+            Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() },
+        ];
+        let hints = |given: GivenFacts, warnings: &[Warning]| given.hints(&warnings.iter().collect::<Vec<_>>());
+        let about = |flag: &str, hints: Vec<String>| -> Vec<String> {
+            let mut about: Vec<String> = hints.into_iter().filter(|hint| hint.contains(flag)).collect();
+            about.dedup();
+            about
+        };
+        let in_band = GivenFacts { band: true, ..GivenFacts::default() };
+        assert_eq!(about("--band", hints(in_band, &warnings)), ["leave --band out, or give a wider one"]);
+        assert!(hints(in_band, &warnings[3..4])[0].contains("give a narrower --band"));
+        let in_window = GivenFacts { band: true, window: true, ..GivenFacts::default() };
+        assert_eq!(about("--", hints(in_window, &warnings)).len(), 1);
+        let without = about("--band", hints(GivenFacts::default(), &warnings));
+        assert!(without.len() == 1 && without[0].contains("give --band LOW:HIGH"), "{without:?}");
+    }
+}
