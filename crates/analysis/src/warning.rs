@@ -251,12 +251,7 @@ impl fmt::Display for Warning {
                 rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
-            Self::OtherRotorsHeard { expected: 1 } => {
-                f.write_str("one rotor alone is expected, but other rotors are heard too")
-            }
-            Self::OtherRotorsHeard { expected } => {
-                write!(f, "{expected} rotors are expected, but another rotor is heard beside them")
-            }
+            Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
                 "the sound contradicts the given facts: by the sound alone, the rotor has {blades} blades and turns at {speed_rev_s:.1} \
@@ -270,6 +265,13 @@ impl fmt::Display for Warning {
                 )
             }
         }
+    }
+}
+
+fn others_heard_text(expected: u32) -> String {
+    match expected {
+        1 => "one rotor alone is expected, but other rotors are heard too".to_owned(),
+        several => format!("{several} rotors are expected, but another rotor is heard beside them"),
     }
 }
 

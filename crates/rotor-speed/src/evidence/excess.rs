@@ -3,6 +3,7 @@
 use super::floor::{Floor, FloorShape, FloorSums};
 use super::level_table::{Level, LevelTable, UNKNOWN};
 use super::near_floor::{NearFloor, levels_over};
+use super::pauses::drop_rests;
 use super::rounding::Rounding;
 use hovertone_signal::SteadyLines;
 use hovertone_signal::spectrogram::{Stft, Window};
@@ -15,7 +16,7 @@ const SHORT_S: f64 = 0.1;
 /// Length of a long frame, s. Steady rotors, and several at once, are clearest in 0.4 s. *Decision.*
 pub(super) const LONG_S: f64 = 0.4;
 /// Step between short frames, s. *Numeric.*
-const HOP_S: f64 = 0.05;
+pub(super) const HOP_S: f64 = 0.05;
 /// Steps between short frames to a step between long ones. *Numeric.*
 const LONG_HOPS: u32 = 2;
 /// Bins to the resolution of a frame. *Numeric.*
@@ -32,14 +33,6 @@ const SKIRT_SHARE: f64 = 0.5;
 const SIDE_LOBES: Range<usize> = 8..40;
 /// A side lobe may be higher than that of a steady line by this factor, because the line moves. *Decision.*
 const SIDE_LOBE_MARGIN: f64 = 2.0;
-/// Share of the power that a quarter or half of the frames exceed, below which no rotor hovers. *Decision.*
-const QUIET_SHARE: f64 = 0.01;
-/// Shortest rest between two flights, s. *Decision.*
-const REST_S_MIN: f64 = 3.0;
-/// Share of the frames around that are the quieter ones. *Decision.*
-const QUIET_FRAMES_SHARE: f64 = 0.33;
-/// Time to either side of a frame that is around it, s: a breath of a voice. *Decision.*
-const AROUND_S: f64 = 1.5;
 /// Length of a section, s: long recordings are heard in sections with gaps between. *Numeric.*
 const SECTION_S: f64 = 1.0;
 /// Largest number of sections. *Numeric.*
@@ -76,7 +69,7 @@ pub(crate) struct ExcessFrame {
     pub(super) levels: Arc<[Level]>,
     /// The near floor over the floor, in steps of a level, see [`NearFloor`].
     near_floor: Arc<[i8]>,
-    mean_power: f64,
+    pub(super) mean_power: f64,
 }
 
 #[cfg(test)]
@@ -117,17 +110,6 @@ impl Excess {
         let frames = self.frames.iter().map(over).collect();
         let [floor, near_floor] = [&self.near_floor; 2].map(Arc::clone);
         Self { bin_hz: self.bin_hz, frames, floor, near_floor }
-    }
-
-    /// Whether each frame is one of the quieter ones around it. What pauses, as a voice does between its words, is not in these.
-    pub(super) fn quiet_frames(&self) -> Vec<bool> {
-        let is_quiet = |frame: &ExcessFrame| {
-            let from = self.frames.partition_point(|other| other.centre_s < frame.centre_s - AROUND_S);
-            let to = self.frames.partition_point(|other| other.centre_s <= frame.centre_s + AROUND_S);
-            let quieter = self.frames[from..to].iter().filter(|other| other.mean_power < frame.mean_power).count();
-            (quieter as f64) < QUIET_FRAMES_SHARE * (to - from) as f64
-        };
-        self.frames.iter().map(is_quiet).collect()
     }
 
     /// Resolution of a frame, Hz.
@@ -307,27 +289,6 @@ impl Frames {
         let [floor, near_floor] = [self.floors, self.near_floors].map(|floors| Arc::new(floors.shape()));
         Excess { bin_hz, frames, floor, near_floor }
     }
-}
-
-/// Drops the frames before take-off, after landing, and between flights, by the loudest quarter of the frames. A shorter pause is dropped only
-/// where it is quiet by the louder half: a rotor makes none, and a tune of beeps is told by its pauses.
-fn drop_rests(frames: &mut Vec<ExcessFrame>) {
-    let mut powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
-    powers.sort_by(f64::total_cmp);
-    let quiet_under = |quarters: usize| QUIET_SHARE * powers.get(quarters * powers.len() / 4).copied().unwrap_or(0.0);
-    let (power_min, rest_power_min) = (quiet_under(2), quiet_under(3));
-    let is_quiet = |frame: &ExcessFrame| frame.mean_power <= rest_power_min;
-    let ends_s = frames.first().zip(frames.last()).map(|(first, last)| (first.centre_s, last.centre_s));
-    let mut rests: Vec<Range<f64>> = Vec::new();
-    for run in frames.chunk_by(|a, b| is_quiet(a) == is_quiet(b)).filter(|run| is_quiet(&run[0])) {
-        let (from_s, to_s) = (run[0].centre_s, run[run.len() - 1].centre_s);
-        let is_at_end = ends_s.is_some_and(|(first_s, last_s)| from_s <= first_s || to_s >= last_s);
-        if is_at_end || to_s - from_s >= REST_S_MIN {
-            rests.push(from_s..to_s + HOP_S);
-        }
-    }
-    let is_in_rest = |frame: &ExcessFrame| is_quiet(frame) && rests.iter().any(|rest| rest.contains(&frame.centre_s));
-    frames.retain(|frame| frame.mean_power > power_min && !is_in_rest(frame));
 }
 
 /// Power over the floor, with noise added to both. A skirt or a side lobe of a line counts as noise at most.

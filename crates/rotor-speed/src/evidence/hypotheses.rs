@@ -1,17 +1,11 @@
 //! Hypotheses: speeds and numbers of blades, and the belief in each.
 
-use super::beliefs::Beliefs;
-use super::elsewhere::better_elsewhere;
-use super::excess::{Excess, Looks};
+use super::excess::Excess;
 use super::level_model::{LevelModel, RotorLevels};
-use super::levels::{NoiseLevel, levels_of_lines, noise_level};
-use super::presence::Presence;
-use super::prior::{nats_of_vehicle, odds_nats};
+use super::levels::levels_of_lines;
+use super::prior::odds_nats;
 use super::rotor_lines::RotorLines;
-use super::search::{Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
-use super::second_look::{SecondLook, path_in_long_frames};
-use super::settings::EvidenceConfig;
-use super::votes::VoteTable;
+use super::search::{Multiple, ROTORS_APART, VOTES_NATS_APART, is_family};
 use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
@@ -23,10 +17,6 @@ const HOVER_WIDTH_SHARE: f64 = 0.024;
 /// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
 /// So a slower rotor is heard only where the diameter, the vehicle or the band says that it may be there. *Decision.*
 pub(super) const RESOLVED_REV_S: f64 = 30.0;
-/// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
-const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
-/// Voices and instruments at a time that are told from a rotor. *Decision.*
-const VOICES_MAX: u32 = 2;
 
 /// One shaft speed, with a number of blades.
 #[derive(Clone, Debug)]
@@ -40,9 +30,9 @@ pub(crate) struct Hypothesis {
     /// The speed near which the path is longest: that of the hover.
     pub(crate) hover_rev_s: f64,
     /// Index of the path that was found, of which this is a multiple.
-    path: usize,
+    pub(super) path: usize,
     /// Its speed over that of the path.
-    factor: f64,
+    pub(super) factor: f64,
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
     /// The same over the quieter frames, in which a voice pauses.
@@ -50,7 +40,7 @@ pub(crate) struct Hypothesis {
     /// Evidence of the levels of its lines, in nats: the mean of the looks. They are at the same lines, so that several tell no more than one.
     pub(super) levels_nats: f64,
     /// The same, with what is known of the vehicle.
-    nats: f64,
+    pub(super) nats: f64,
     /// Levels of its lines in short frames.
     pub(super) levels: RotorLevels,
     /// The same in long frames over the near floor, where they were looked at.
@@ -95,211 +85,8 @@ pub(crate) struct WantedPropeller {
     pub(crate) speeds_rev_s: RangeInclusive<f64>,
 }
 
-/// Compares the hypotheses in two looks at the same sound: without a voice, where one sounds; in long frames alone, where short ones hear no rotor:
-/// a faint, steady one. `None` where no rotor is heard.
-pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    beliefs_beside_voices(looks, wanted, config).or_else(|| {
-        let of_long_frames = Looks { short: looks.long.clone(), long: looks.long.clone() };
-        let of_any_votes = EvidenceConfig { votes_nats_min: f64::MIN, ..*config };
-        match beliefs_of(&of_long_frames, wanted, &of_any_votes)? {
-            Heard::Rotor(beliefs) => Some(Beliefs { is_faint: true, ..beliefs }),
-            Heard::Voice(_) => None,
-        }
-    })
-}
-
-/// What sounds in some frames.
-enum Heard {
-    Rotor(Beliefs),
-    /// A voice, and the frames in which it sounds, without its lines.
-    Voice(Looks),
-}
-
-/// The beliefs in the sound without the voices that are heard in it.
-fn beliefs_beside_voices(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    let mut without_voice: Option<Looks> = None;
-    for _ in 0..=VOICES_MAX {
-        match beliefs_of(without_voice.as_ref().unwrap_or(looks), wanted, config)? {
-            Heard::Rotor(beliefs) => return Some(Beliefs { without_voice, ..beliefs }),
-            Heard::Voice(without) => without_voice = Some(without),
-        }
-    }
-    None
-}
-
-/// What sounds in these frames. `None` where neither a rotor nor a voice is heard.
-fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Heard> {
-    let Look { noise, mut of_propellers, mut model } = look_at(&looks.short, wanted, config)?;
-    let mut again = look_again(looks, &mut of_propellers, config);
-    let mut presence = Presence::new(noise, again.as_ref().map(|(noise, _)| *noise), &config.levels);
-    let is_possible = |look: &OfPropeller| wanted.may_be_slow || is_resolved(&look.hypotheses);
-    let heard =
-        of_propellers.into_iter().filter(|look| is_possible(look) && presence.is_heard(&look.hypotheses, config));
-    let mut hypotheses: Vec<Hypothesis> = Vec::new();
-    let mut loudest: Option<(f64, Looks)> = None;
-    for look in heard {
-        match voice_beside(&look, looks, config) {
-            Some(voice) => loudest = loudest.filter(|(nats, _)| *nats >= voice.0).or(Some(voice)),
-            None => hypotheses
-                .extend(look.hypotheses.into_iter().map(|it| Hypothesis { nats: it.nats + look.share_nats, ..it })),
-        }
-    }
-    if hypotheses.is_empty() {
-        return loudest.map(|(_, without)| Heard::Voice(without));
-    }
-    let hypotheses = with_beliefs(hypotheses);
-    let better = again
-        .as_mut()
-        .and_then(|(_, long)| better_elsewhere(hypotheses.first()?, looks, wanted, [&mut model, long], config));
-    Some(Heard::Rotor(Beliefs { hypotheses, noise, is_faint: false, better, without_voice: None }))
-}
-
-/// What a voice or an instrument has more than the most probable hypothesis, in nats a frame, where it explains the frames far better; with the
-/// frames in which it sounds, without its lines.
-fn voice_beside(look: &OfPropeller, looks: &Looks, config: &EvidenceConfig) -> Option<(f64, Looks)> {
-    let first = look.hypotheses.first()?;
-    let searched;
-    let search = match &look.search {
-        Some(search) => search,
-        None => {
-            searched = Search::of(&looks.short, &look.lines, &look.speeds_rev_s)?;
-            &searched
-        }
-    };
-    let voice = search.voice_beside(first.speed_rev_s).filter(|voice| voice.gain_nats >= config.jumps_nats_max)?;
-    Some((voice.gain_nats, voice.left_out_of(looks, |point| search.speed_rev_s(point))))
-}
-
-/// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames over the near
-/// floor, and the model of that over the wide one; `None` where they show none.
-fn look_again<'a>(
-    looks: &Looks,
-    of_propellers: &mut [OfPropeller],
-    config: &'a EvidenceConfig,
-) -> Option<(NoiseLevel, LevelModel<'a>)> {
-    let near = looks.long.over_near_floor();
-    let mut seen: Vec<Vec<Option<[SecondLook; 2]>>> = Vec::new();
-    for look in &*of_propellers {
-        let table = VoteTable::of(&look.lines);
-        // octaves are compared along one path: that of the one with the most votes
-        let mut paths: Vec<(&Hypothesis, Vec<f64>)> = Vec::new();
-        let mut by_votes: Vec<&Hypothesis> = look.hypotheses.iter().collect();
-        by_votes.sort_by(|a, b| b.votes_nats.total_cmp(&a.votes_nats));
-        for it in by_votes {
-            if !paths.iter().any(|(other, _)| other.path == it.path)
-                && let Some(path) = path_in_long_frames(looks, &it.speeds_rev_s, &table)
-            {
-                paths.push((it, path));
-            }
-        }
-        let along = |it: &Hypothesis| {
-            let (of, path) = paths.iter().find(|(other, _)| other.path == it.path)?;
-            let speeds_rev_s: Vec<f64> = path.iter().map(|speed_rev_s| it.factor / of.factor * speed_rev_s).collect();
-            SecondLook::over_both_floors([&looks.long, &near], &speeds_rev_s, &look.lines)
-        };
-        seen.push(look.hypotheses.iter().map(along).collect());
-    }
-    let noise_over = |floor: usize| {
-        let noises = seen.iter().flatten().flatten().map(|floors| floors[floor].noise).collect();
-        NoiseLevel::of_emptiest(noises, config.levels.foreign)
-    };
-    let noises = [noise_over(0)?, noise_over(1)?];
-    let mut models = noises.map(|noise| LevelModel::of_speeds(noise, &config.levels));
-    for (look, seen) in of_propellers.iter_mut().zip(seen) {
-        let Some(seen) = seen.into_iter().collect::<Option<Vec<[SecondLook; 2]>>>() else { continue };
-        for (it, floors) in look.hypotheses.iter_mut().zip(seen) {
-            let levels_nats = 0.5 * (it.levels_nats + SecondLook::evidence_nats(&floors, &mut models, &look.lines));
-            it.nats += levels_nats - it.levels_nats;
-            it.levels_nats = levels_nats;
-            let [_, near] = floors;
-            it.near_levels = Some(near.levels);
-        }
-        look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
-    }
-    let ([_, near_noise], [model, _]) = (noises, models);
-    Some((near_noise, model))
-}
-
-/// What frames of one length show.
-struct Look<'a> {
-    noise: NoiseLevel,
-    /// The model that told the speeds apart.
-    model: LevelModel<'a>,
-    /// The hypotheses with each of the propellers that are heard.
-    of_propellers: Vec<OfPropeller>,
-}
-
-/// The hypotheses with one propeller.
-struct OfPropeller {
-    lines: RotorLines,
-    speeds_rev_s: RangeInclusive<f64>,
-    /// Logarithm of how common it is.
-    share_nats: f64,
-    /// Most probable first; none where no path has the votes of a rotor.
-    hypotheses: Vec<Hypothesis>,
-    /// The search that found them, where it was kept.
-    search: Option<Search>,
-}
-
-/// The hypotheses on frames of one length. `None` without frames.
-///
-/// The path with the most votes of all may be that of a slow comb, whose dense lines cover the wide lines of several rotors. Therefore each
-/// octave has its path, and the levels decide among them. The noise is what the paths that explain most leave between their lines.
-fn look_at<'a>(excess: &Excess, wanted: &WantedRotor, config: &'a EvidenceConfig) -> Option<Look<'a>> {
-    let noises_of = |search: &Search| -> Vec<NoiseLevel> {
-        search.speeds_of_paths().filter_map(|speeds_rev_s| noise_level(excess, &speeds_rev_s)).collect()
-    };
-    let mut noises: Vec<NoiseLevel> = Vec::new();
-    let any = wanted.propellers.first()?;
-    for blades in NOISE_BLADES.map(RotorLines::of_blades) {
-        if wanted.propellers.iter().all(|wanted| wanted.lines != blades) {
-            noises.extend(noises_of(&Search::of(excess, &blades, &any.speeds_rev_s)?));
-        }
-    }
-    // votes are large, so that those of the last propeller alone are kept
-    let mut last: Option<Search> = None;
-    let mut found: Vec<(&WantedPropeller, Vec<Multiple>)> = Vec::new();
-    let mut lines_share = f64::INFINITY;
-    for propeller in &wanted.propellers {
-        drop(last.take());
-        let search = Search::of(excess, &propeller.lines, &propeller.speeds_rev_s)?;
-        let own = noises_of(&search);
-        lines_share = own.iter().map(|noise| noise.lines_share).fold(lines_share, f64::min);
-        noises.extend(own);
-        found.push((propeller, search.multiples(config.votes_nats_min)));
-        last = Some(search);
-    }
-    // lines that no wanted rotor explains are foreign, whatever another one would explain
-    let noise = NoiseLevel { lines_share, ..NoiseLevel::of_emptiest(noises, config.levels.foreign)? };
-    let mut model = LevelModel::of_speeds(noise, &config.levels);
-    let of_propeller = |(propeller, multiples): (&WantedPropeller, Vec<Multiple>)| {
-        let all = multiples.iter().filter_map(|multiple| {
-            let hypothesis = hypothesis_of(multiple, &propeller.lines, excess, &mut model)?;
-            let nats = hypothesis.levels_nats + nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
-            Some(Hypothesis { nats, ..hypothesis })
-        });
-        OfPropeller {
-            lines: propeller.lines,
-            speeds_rev_s: propeller.speeds_rev_s.clone(),
-            share_nats: propeller.share.ln(),
-            hypotheses: one_of_each_speed(all.collect()),
-            search: None,
-        }
-    };
-    let mut of_propellers: Vec<OfPropeller> = found.into_iter().map(of_propeller).collect();
-    if let Some(propeller) = of_propellers.last_mut() {
-        propeller.search = last;
-    }
-    Some(Look { noise, model, of_propellers })
-}
-
-/// Whether the lines of the most probable hypothesis stand apart.
-fn is_resolved(hypotheses: &[Hypothesis]) -> bool {
-    hypotheses.first().is_some_and(|first| first.speed_rev_s >= RESOLVED_REV_S)
-}
-
 /// The hypothesis that a rotor turns at this multiple of a path, with the evidence of its lines. `None` without speeds.
-fn hypothesis_of(
+pub(super) fn hypothesis_of(
     multiple: &Multiple,
     lines: &RotorLines,
     excess: &Excess,
@@ -338,7 +125,7 @@ fn most_frequent_rev_s(speeds_rev_s: &[f64]) -> Option<f64> {
 }
 
 /// The best path of each speed, most probable first. Paths of rotors of one vehicle are one hypothesis.
-fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
+pub(super) fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     // octaves are compared along one path; another path that is no family of it explains the frames as well, or it is none
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
     let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
@@ -366,7 +153,7 @@ fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
 
 /// The hypotheses with their beliefs, most probable first. The belief in a speed is that of all numbers of blades; the most probable of them is
 /// told.
-fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
+pub(super) fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
     all.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     for it in all {

@@ -20,10 +20,15 @@
 //! 8. *Elsewhere* (`elsewhere`): whether a rotor that something known leaves out has lines that are far more probable.
 //! 9. *Near a speed* (`near_speed`): the same at a speed that is known, for an exam.
 //!
-//! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor (0
-//! in a band narrower than an octave), its lines stand apart in a frame (from 30 rev/s on, unless it is known to be slow), and no path that
-//! jumps, as a voice or an instrument does, has 7.8 nats a frame more. A faint one is heard in long frames alone, without votes, where its
+//! 10. *Heard* (`heard`): these steps one after the other.
+//!
+//! A rotor is heard where the median of the votes is at least 1.4 nats, over all frames and over the quieter third (`pauses`), because a voice
+//! pauses and a rotor does not; where each look has 4.6 nats of levels over a flat floor (0 in a band narrower than an octave); and where its lines
+//! stand apart in a frame (from 30 rev/s on, unless it is known to be slow). A faint one is heard in long frames alone, without votes, where its
 //! lines keep their phase.
+//!
+//! Where a path that jumps, as a voice or an instrument does (`voice`), has 7.8 nats a frame more, its lines are left out, and the frames in which it
+//! sounds must hold a rotor without them.
 //!
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
@@ -33,6 +38,7 @@ mod companions;
 mod elsewhere;
 mod excess;
 mod floor;
+mod heard;
 mod hypotheses;
 mod level_model;
 mod level_table;
@@ -41,6 +47,7 @@ mod near_floor;
 mod near_speed;
 mod own_lines;
 mod path;
+mod pauses;
 mod presence;
 mod prior;
 mod ratio_table;
@@ -55,7 +62,8 @@ mod votes;
 pub(crate) use beliefs::Beliefs;
 pub(crate) use companions::{COMPANION_DISTANCE_MIN, Companions};
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
-pub(crate) use hypotheses::{Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
+pub(crate) use heard::beliefs_from_looks;
+pub(crate) use hypotheses::{Hypothesis, WantedPropeller, WantedRotor};
 pub use level_model::OrderLevel;
 pub use levels::NoiseLevel;
 pub use near_speed::LinesNear;

@@ -2,6 +2,7 @@
 
 use super::excess::Excess;
 use super::path::best_path;
+use super::pauses::quiet_frames;
 use super::rotor_lines::RotorLines;
 use super::voice::Voice;
 use super::votes::{VotePlaces, VoteTable, votes_of_frames};
@@ -75,7 +76,7 @@ impl Search {
         if paths.iter().any(|path| !grid.is_at_end(path)) {
             paths.retain(|path| !grid.is_at_end(path));
         }
-        Some(Self { grid, votes, paths, quiet_frames: excess.quiet_frames() })
+        Some(Self { grid, votes, paths, quiet_frames: quiet_frames(&excess.frames) })
     }
 
     /// The speeds along the best path of each window.

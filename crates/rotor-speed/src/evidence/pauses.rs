@@ -1,0 +1,45 @@
+//! Pauses of a sound, by the power of its frames: rests of a flight, and the breaths of a voice.
+
+use super::excess::{ExcessFrame, HOP_S};
+use std::ops::Range;
+
+/// Share of the power that a quarter or half of the frames exceed, below which no rotor hovers. *Decision.*
+const QUIET_SHARE: f64 = 0.01;
+/// Shortest rest between two flights, s. *Decision.*
+const REST_S_MIN: f64 = 3.0;
+/// Share of the frames around that are the quieter ones. *Decision.*
+const QUIET_FRAMES_SHARE: f64 = 0.33;
+/// Time to either side of a frame that is around it, s: a breath of a voice. *Decision.*
+const AROUND_S: f64 = 1.5;
+
+/// Drops the frames before take-off, after landing, and between flights, by the loudest quarter of the frames. A shorter pause is dropped only
+/// where it is quiet by the louder half: a rotor makes none, and a tune of beeps is told by its pauses.
+pub(super) fn drop_rests(frames: &mut Vec<ExcessFrame>) {
+    let mut powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
+    powers.sort_by(f64::total_cmp);
+    let quiet_under = |quarters: usize| QUIET_SHARE * powers.get(quarters * powers.len() / 4).copied().unwrap_or(0.0);
+    let (power_min, rest_power_min) = (quiet_under(2), quiet_under(3));
+    let is_quiet = |frame: &ExcessFrame| frame.mean_power <= rest_power_min;
+    let ends_s = frames.first().zip(frames.last()).map(|(first, last)| (first.centre_s, last.centre_s));
+    let mut rests: Vec<Range<f64>> = Vec::new();
+    for run in frames.chunk_by(|a, b| is_quiet(a) == is_quiet(b)).filter(|run| is_quiet(&run[0])) {
+        let (from_s, to_s) = (run[0].centre_s, run[run.len() - 1].centre_s);
+        let is_at_end = ends_s.is_some_and(|(first_s, last_s)| from_s <= first_s || to_s >= last_s);
+        if is_at_end || to_s - from_s >= REST_S_MIN {
+            rests.push(from_s..to_s + HOP_S);
+        }
+    }
+    let is_in_rest = |frame: &ExcessFrame| is_quiet(frame) && rests.iter().any(|rest| rest.contains(&frame.centre_s));
+    frames.retain(|frame| frame.mean_power > power_min && !is_in_rest(frame));
+}
+
+/// Whether each frame is one of the quieter ones around it. What pauses, as a voice does between its words, is not in these.
+pub(super) fn quiet_frames(frames: &[ExcessFrame]) -> Vec<bool> {
+    let is_quiet = |frame: &ExcessFrame| {
+        let from = frames.partition_point(|other| other.centre_s < frame.centre_s - AROUND_S);
+        let to = frames.partition_point(|other| other.centre_s <= frame.centre_s + AROUND_S);
+        let quieter = frames[from..to].iter().filter(|other| other.mean_power < frame.mean_power).count();
+        (quieter as f64) < QUIET_FRAMES_SHARE * (to - from) as f64
+    };
+    frames.iter().map(is_quiet).collect()
+}
