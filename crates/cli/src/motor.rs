@@ -16,7 +16,9 @@ use crate::terminal::Terminal;
 use hovertone::motors::HeardCommands;
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
-use hovertone_dynamics::{CommandSeries, MotorConfig, MotorSeries, command_of_speed, motor_from_series};
+use hovertone_dynamics::{
+    BenchTorque, CommandSeries, MotorConfig, MotorSeries, TorqueSeries, command_of_speed, motor_from_series, torque_of_motor,
+};
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
 use hovertone_report::{LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text};
@@ -141,7 +143,7 @@ impl<'a> Plan<'a> {
                 rows.push(MotorRows { time_s: motor.time_s, speed_rev_s: motor.speed_rev_s });
             }
         }
-        let record = MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors };
+        let record = MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors, torque: None };
         let idle_mass = idle_mass(&self.arguments.known, &self.config.known);
         let notices = idle_mass.into_iter().chain(heard.notices).chain(misaligned).collect();
         Ok(Told { record, rows, notices, is_whole: true })
@@ -175,7 +177,7 @@ fn flags_of_recording() -> Vec<String> {
 
 fn told_by_log(file: &Path, flight: &LoggedFlight) -> Told {
     let name = if is_stdin(file) { STDIN.to_owned() } else { file.display().to_string() };
-    let record = MotorRecord { file: name, source: MotorSource::Log, motors: motors_of(flight) };
+    let record = motors_of_log(&name, flight);
     let values_of = |name: &str| {
         let speeds = flight.speeds_rev_s.as_ref()?;
         let (_, values) = speeds.names.iter().zip(&speeds.values).find(|(of, _)| *of == name)?;
@@ -257,8 +259,15 @@ pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<Logge
     Ok(Some(flight))
 }
 
+/// The motors of a log, with C_τ where it has a torque.
+pub(crate) fn motors_of_log(file: &str, flight: &LoggedFlight) -> MotorRecord {
+    let motors = motors_of(flight);
+    let torque = torque_of(flight, &motors);
+    MotorRecord { file: file.to_owned(), source: MotorSource::Log, motors, torque }
+}
+
 /// The motors that turn, each with its command: that of the same name, else the one that its speed follows best.
-pub(crate) fn motors_of(flight: &LoggedFlight) -> Vec<LoggedMotor> {
+fn motors_of(flight: &LoggedFlight) -> Vec<LoggedMotor> {
     let Some(speeds) = &flight.speeds_rev_s else { return Vec::new() };
     let config = MotorConfig::default();
     let motor = |(name, values): (&String, &Vec<f64>)| {
@@ -272,6 +281,21 @@ pub(crate) fn motors_of(flight: &LoggedFlight) -> Vec<LoggedMotor> {
         Some(LoggedMotor { name: name.clone(), command, model })
     };
     speeds.names.iter().zip(&speeds.values).filter_map(motor).collect()
+}
+
+/// C_τ by the torque of a log, or why the log does not tell it. `None` where no motor turns.
+fn torque_of(flight: &LoggedFlight, motors: &[LoggedMotor]) -> Option<BenchTorque> {
+    let speeds = flight.speeds_rev_s.as_ref()?;
+    let Some(torque) = &flight.torque else { return motors.first().map(|_| BenchTorque::NoTorque) };
+    let [motor] = motors else { return motors.first().map(|_| BenchTorque::SeveralMotors) };
+    let (_, speed_rev_s) = speeds.names.iter().zip(&speeds.values).find(|(name, _)| **name == motor.name)?;
+    let series = MotorSeries { time_s: &speeds.time_s, speed_rev_s };
+    let command = flight.commands.as_ref().and_then(|commands| {
+        let at = commands.names.iter().position(|name| Some(name) == motor.command.as_ref())?;
+        Some(CommandSeries { time_s: &commands.time_s, command: &commands.values[at] })
+    });
+    let torque = TorqueSeries { time_s: &torque.time_s, torque_n_m: &torque.torque_n_m };
+    Some(torque_of_motor(&series, command.as_ref(), &torque, &MotorConfig::default()))
 }
 
 fn command_at(commands: &LoggedMotors, name: &str, series: &MotorSeries) -> Option<usize> {

@@ -5,11 +5,13 @@
 //! ```text
 //! series ─ transitions ▶ windows with one step ─ first_order ▶ curves ─ step ▶ steps with a verdict ─ combined ▶ time constants, dead time
 //!    └──── plateaus ────▶ levels held ─ static_map ▶ speed of each command, gain, saturation ──┘
+//!                              └─────── bench_torque ▶ C_τ, where a bench logs the torque
 //! ```
 //!
 //! `motor.rs` is the whole chain, `config.rs` has all settings.
 
 mod alignment;
+mod bench_torque;
 mod combined;
 mod config;
 mod first_order;
@@ -27,6 +29,7 @@ mod step;
 mod transitions;
 
 pub use alignment::{offset_of_commands, other_offset_of_commands};
+pub use bench_torque::{BenchTorque, TorqueSeries};
 pub use combined::CombinedEstimate;
 pub use config::MotorConfig;
 pub use grey_box::*;
@@ -34,7 +37,7 @@ pub use listening::{
     HeardLines, LineOrders, SoundConfig, SoundFit, grey_box_from_sound, lines_from_passes, log_offset_s, speeds_along,
 };
 pub use load::LoadTerm;
-pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series};
+pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series, torque_of_motor};
 pub use room::*;
 pub use series::{CommandSeries, MotorSeries, command_of_speed};
 pub use static_map::{MapOrigin, MapPoint, StaticMap};

@@ -1,9 +1,10 @@
 //! The whole chain for one motor, and the constants of several.
 
+use crate::bench_torque::{BenchTorque, TorqueSeries, torque_of_levels};
 use crate::combined::{CombinedEstimate, combined};
 use crate::config::MotorConfig;
 use crate::load::{LoadTerm, load_term_of};
-use crate::plateaus::{HeldCommand, Plateau, held_commands, plateaus_of};
+use crate::plateaus::{HeldCommand, Plateau, held_commands, long_of, plateaus_of};
 use crate::search::Interval;
 use crate::series::{CommandSeries, MotorSeries, pairs_of};
 use crate::static_map::{StaticMap, map_of_plateaus, map_of_rows};
@@ -67,7 +68,7 @@ pub fn motor_from_series(
         return None;
     }
     let held = command.as_ref().map_or_else(Vec::new, held_commands);
-    let plateaus = plateaus_of(&series, &held, config);
+    let plateaus = plateaus_of(&series, &long_of(&held, config));
     let of_plateaus = map_of_plateaus(&plateaus, config).filter(|map| map.gain_rev_s.is_some());
     let static_map = of_plateaus.or_else(|| map_of_rows(&pairs_of(&series, command.as_ref()?), config));
     let is_too_slow = interval_s > config.interval_s_max;
@@ -88,6 +89,17 @@ pub fn motor_from_series(
     let stepped = steps.iter().map(|step| step.speed_from_rev_s.max(step.speed_to_rev_s));
     let speed_rev_s_max = settled.chain(stepped).reduce(f64::max).unwrap_or(speed_rev_s_max);
     Some(MotorModel { interval_s, is_too_slow, static_map, speed_rev_s_max, steps })
+}
+
+/// C_τ of a motor from the torque of a bench, at the speeds to which held commands lead.
+pub fn torque_of_motor(
+    series: &MotorSeries,
+    command: Option<&CommandSeries>,
+    torque: &TorqueSeries,
+    config: &MotorConfig,
+) -> BenchTorque {
+    let held = command.map_or_else(Vec::new, held_commands);
+    torque_of_levels(series, torque, &long_of(&held, config))
 }
 
 fn transitions_of(

@@ -3,6 +3,7 @@
 use crate::config::MotorConfig;
 use crate::series::{CommandSeries, MotorSeries, std_uncertainty_of_long_mean};
 use hovertone_signal::statistics::median;
+use std::ops::Range;
 
 /// A command changes if it differs by more than this share of its range. *Numeric*: commands are digital.
 const CHANGE_SHARE: f64 = 0.005;
@@ -52,15 +53,25 @@ pub(crate) fn held_commands(series: &CommandSeries) -> Vec<HeldCommand> {
     held
 }
 
-/// The speeds of the commands that are held long enough, without rotors at rest.
-pub(crate) fn plateaus_of(series: &MotorSeries, held: &[HeldCommand], config: &MotorConfig) -> Vec<Plateau> {
+/// The commands that are held long enough for the speed to settle.
+pub(crate) fn long_of(held: &[HeldCommand], config: &MotorConfig) -> Vec<HeldCommand> {
     let length_s_min = (config.dead_time_s_max + config.hold_s_min) / (1.0 - SETTLED_SHARE);
-    let long = held.iter().filter(|held| held.length_s() >= length_s_min);
+    held.iter().filter(|held| held.length_s() >= length_s_min).copied().collect()
+}
+
+/// The end of a held command, in which the speed has settled.
+pub(crate) fn settled_of(held: &HeldCommand) -> Range<f64> {
+    held.to_s - SETTLED_SHARE * held.length_s()..held.to_s
+}
+
+/// The speeds of commands that are held long enough, without rotors at rest.
+pub(crate) fn plateaus_of(series: &MotorSeries, long: &[HeldCommand]) -> Vec<Plateau> {
     let plateau = |held: &HeldCommand| {
-        let settled = series.between(held.to_s - SETTLED_SHARE * held.length_s(), held.to_s);
+        let settled = settled_of(held);
+        let settled = series.between(settled.start, settled.end);
         let speed_rev_s = median(settled.speed_rev_s).filter(|speed_rev_s| *speed_rev_s > 0.0)?;
         let speed_std_rev_s = std_uncertainty_of_long_mean(settled.speed_rev_s)?;
         Some(Plateau { command: held.command, speed_rev_s, speed_std_rev_s })
     };
-    long.filter_map(plateau).collect()
+    long.iter().filter_map(plateau).collect()
 }

@@ -16,6 +16,8 @@ pub enum SignalRole {
     Command(u32),
     /// Body rate about x, y or z (0, 1, 2), in rad/s.
     BodyRate(usize),
+    /// Torque of a test stand on its motor, in N m.
+    Torque,
 }
 
 /// A signal of a table.
@@ -40,6 +42,7 @@ impl TableSignal {
             SignalRole::RotorSpeed(_) => "rev/s",
             SignalRole::Command(_) => "",
             SignalRole::BodyRate(_) => "rad/s",
+            SignalRole::Torque => "N m",
         };
         Self { name, unit: unit.to_owned(), role: Some(role) }
     }

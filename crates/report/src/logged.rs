@@ -74,6 +74,7 @@ fn role_in_words(role: SignalRole) -> &'static str {
         SignalRole::RotorSpeed(_) => "rotor speed",
         SignalRole::Command(_) => "command",
         SignalRole::BodyRate(_) => "body rate",
+        SignalRole::Torque => "torque",
     }
 }
 
@@ -219,9 +220,10 @@ fn signal_line(summary: &SignalSummary) -> SignalLine<'_> {
         name,
         unit: Some(unit.as_str()).filter(|unit| !unit.is_empty()),
         about: role.map(role_in_words),
-        number: role.map(|role| match role {
-            SignalRole::RotorSpeed(number) | SignalRole::Command(number) => number as usize,
-            SignalRole::BodyRate(axis) => axis,
+        number: role.and_then(|role| match role {
+            SignalRole::RotorSpeed(number) | SignalRole::Command(number) => Some(number as usize),
+            SignalRole::BodyRate(axis) => Some(axis),
+            SignalRole::Torque => None,
         }),
         low: summary.range.map(|range| range.low),
         high: summary.range.map(|range| range.high),

@@ -1,12 +1,12 @@
 //! Constants of motors from a log or a recording: tables for people, and lines for simulators.
 
-use crate::number::{DASH, expanded, fixed, rounded, significant, with_uncertainty};
+use crate::number::{DASH, expanded, fixed, rounded, scaled_number, significant, with_uncertainty};
 use crate::printable::printable;
 use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::{
-    CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, MotorStep, StepVerdict, constants_of,
+    BenchTorque, CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, MotorStep, StepVerdict, constants_of,
 };
 use hovertone_vehicle::Estimate;
 use std::f64::consts::TAU;
@@ -58,6 +58,8 @@ pub struct MotorRecord {
     pub source: MotorSource,
     /// Motors that turn.
     pub motors: Vec<LoggedMotor>,
+    /// C_τ of one rotor, or why a log does not tell it; absent for a recording.
+    pub torque: Option<BenchTorque>,
 }
 
 impl MotorRecord {
@@ -98,6 +100,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
         );
     }
     text += &maps_text(record, width);
+    text += &record.torque.as_ref().map_or(String::new(), torque_text);
     text + &simulator_lines(&record.constants())
 }
 
@@ -258,6 +261,21 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += "saturated: the speed no longer follows the command; this command is left out of the gain\n";
     }
     text
+}
+
+fn torque_text(torque: &BenchTorque) -> String {
+    match torque {
+        BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
+            let scaled = scaled_number(constant_n_m_s2.value, constant_n_m_s2.std_uncertainty);
+            let (digits, exponent) = (&scaled.digits, scaled.exponent);
+            let offset = significant(*offset_n_m, 2);
+            format!(
+                "\nC_τ of one rotor: ({digits}) 1e{exponent} N m s² (k = 2, of the fit alone), by the torque at {level_count} settled \
+                speeds; at rest the torque is {offset} N m\n"
+            )
+        }
+        other => format!("\nC_τ: not known, because {}\n", other.reason().unwrap_or_default()),
+    }
 }
 
 fn gains_table(record: &MotorRecord) -> TextTable {

@@ -3,7 +3,7 @@
 use crate::motor::{LoggedMotor, MotorRecord, MotorSource};
 use crate::version::VERSION;
 use hovertone_dynamics::{
-    CombinedEstimate, LoadTerm, MapOrigin, MapPoint, MotorStep, StaticMap, StepVerdict, constants_of,
+    BenchTorque, CombinedEstimate, LoadTerm, MapOrigin, MapPoint, MotorStep, StaticMap, StepVerdict, constants_of,
 };
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
@@ -21,6 +21,9 @@ struct MotorLine<'a> {
     dead_time_s: Option<CombinedLine>,
     load_term: Option<LoadLine>,
     speed_rev_s_max: Option<f64>,
+    torque_constant_n_m_s2: Option<f64>,
+    torque_constant_std_n_m_s2: Option<f64>,
+    torque_constant_reason: Option<String>,
     steps: Vec<StepLine<'a>>,
     motors: Vec<OneMotorLine<'a>>,
     version: &'static str,
@@ -101,6 +104,10 @@ pub fn motor_json(record: &MotorRecord) -> Result<String, serde_json::Error> {
         MotorSource::Log => None,
         MotorSource::Sound(sound) => Some(sound),
     };
+    let torque = record.torque.and_then(|torque| match torque {
+        BenchTorque::Told { constant_n_m_s2, .. } => Some(constant_n_m_s2),
+        _ => None,
+    });
     let line = MotorLine {
         file: &record.file,
         source: if sound.is_some() { "sound" } else { "log" },
@@ -113,6 +120,9 @@ pub fn motor_json(record: &MotorRecord) -> Result<String, serde_json::Error> {
         dead_time_s: constants.dead_time_s.map(combined_line),
         load_term: constants.load_term.map(load_line),
         speed_rev_s_max: Some(constants.speed_rev_s_max).filter(|speed_rev_s| *speed_rev_s > 0.0),
+        torque_constant_n_m_s2: torque.map(|constant| constant.value),
+        torque_constant_std_n_m_s2: torque.and_then(|constant| constant.std_uncertainty),
+        torque_constant_reason: record.torque.as_ref().and_then(BenchTorque::reason),
         steps: steps.collect(),
         motors: record.motors.iter().map(one_motor_line).collect(),
         version: VERSION,

@@ -61,11 +61,7 @@ impl FlownLog {
             labels: has_tone.then(labels).flatten(),
             verification,
             not_verified,
-            motors: MotorRecord {
-                file: self.file.name.clone(),
-                source: MotorSource::Log,
-                motors: motors_of(&self.flight),
-            },
+            motors: motors_of_log(&self.file.name, &self.flight),
         };
         let losses = self.flight.notes.iter().map(|words| loss_notice(&format!("{}: {words}", self.file.name)));
         record.notices.splice(0..0, compared.notices().into_iter().chain(losses));

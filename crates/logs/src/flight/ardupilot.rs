@@ -17,6 +17,7 @@ pub(super) fn flight(tables: &[SignalTable], motor_of_output: &BTreeMap<u32, u32
         speeds_rev_s: speeds_of(tables, motor_of_output),
         commands: named("RCOU").find_map(|table| commands_of(table, motor_of_output)),
         rates: rates.filter(|rates| !rates.time_s.is_empty()),
+        torque: None,
         notes: Vec::new(),
     }
 }

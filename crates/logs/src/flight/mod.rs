@@ -50,6 +50,15 @@ pub struct LoggedRates {
     pub axes: Option<RateAxes>,
 }
 
+/// Torque of a test stand on its motor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoggedTorque {
+    /// Times on the clock of the log, increasing.
+    pub time_s: Vec<f64>,
+    /// Torque, with the sign of the stand.
+    pub torque_n_m: Vec<f64>,
+}
+
 /// Content of a log.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoggedFlight {
@@ -59,6 +68,8 @@ pub struct LoggedFlight {
     pub commands: Option<LoggedMotors>,
     /// Body rates.
     pub rates: Option<LoggedRates>,
+    /// Torque of a test stand.
+    pub torque: Option<LoggedTorque>,
     /// Defects of the log.
     pub notes: Vec<String>,
 }
@@ -69,7 +80,7 @@ pub struct LoggedFlight {
 ///   move), the rates of `vehicle_angular_velocity` (or of `sensor_combined`), x forward, y right, z down.
 /// - *ArduPilot DataFlash*: the speeds of `ESC`, the commands of `RCOU`, the rates of `IMU`, with the same axes.
 /// - *Betaflight blackbox*: `eRPM`, `motor` and `gyroADC` of the longest log in the file, x forward, y left, z up.
-/// - *CSV*: what its headers tell, or the names that `names` gives to its columns.
+/// - *CSV*: what its headers tell, or the names that `names` gives to its columns; also the torque of a test stand.
 ///
 /// Each table keeps its own times. A log that breaks off or is damaged is read as far as possible, with a note.
 ///

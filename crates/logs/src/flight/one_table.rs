@@ -1,8 +1,9 @@
 //! Logs with all signals in one table: CSV, and blackbox.
 
-use super::rows::{Motor, command_number, motors_of, rates_of, speed_number, with_role, without_sign};
-use super::{LoggedFlight, RateAxes};
+use super::rows::{Motor, Rows, command_number, motors_of, rates_of, rows_of, speed_number, with_role, without_sign};
+use super::{LoggedFlight, LoggedTorque, RateAxes};
 use crate::signals::SignalTable;
+use crate::table::SignalRole;
 
 /// Motors and rates of the table with most rows: a blackbox file has one for each arming.
 pub(super) fn flight(tables: &[SignalTable], axes: Option<RateAxes>) -> LoggedFlight {
@@ -11,7 +12,19 @@ pub(super) fn flight(tables: &[SignalTable], axes: Option<RateAxes>) -> LoggedFl
     };
     let speeds = motors_of(&table.time_s, one_of_each(with_role(table, speed_number)), "motor", |_| false);
     let commands = motors_of(&table.time_s, with_role(table, command_number), "motor", |_| false);
-    LoggedFlight { speeds_rev_s: speeds.map(without_sign), commands, rates: rates_of(table, axes), notes: Vec::new() }
+    LoggedFlight {
+        speeds_rev_s: speeds.map(without_sign),
+        commands,
+        rates: rates_of(table, axes),
+        torque: torque_of(table),
+        notes: Vec::new(),
+    }
+}
+
+fn torque_of(table: &SignalTable) -> Option<LoggedTorque> {
+    let at = table.signals.iter().position(|signal| signal.role == Some(SignalRole::Torque))?;
+    let Rows { time_s, values } = rows_of(&table.time_s, &[&table.values[at]], |_| false);
+    Some(LoggedTorque { time_s, torque_n_m: values.into_iter().next()? })
 }
 
 /// Of two sensors for one motor, the one that sees it turn more often: a stand may have no optical one.

@@ -23,6 +23,10 @@ pub(super) enum LogColumn {
     MotorCommand {
         motor: u32,
     },
+    /// Torque of a test stand, in N m per unit of the column.
+    Torque {
+        factor: f64,
+    },
 }
 
 const ABOUT: [&[&str]; 3] = [&["x", "roll", "p"], &["y", "pitch", "q"], &["z", "yaw", "r"]];
@@ -40,6 +44,12 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
             None if words == ["timestamp"] => LogColumn::Time { factor: 1e-6 },
             None => LogColumn::TimeWithoutUnit,
         });
+    }
+    if has(&["torque"]) && !has(&["setpoint", "desired", "target"]) && !words.iter().any(|it| it.parse::<u32>().is_ok()) {
+        // what names no unit may be a share of the largest torque
+        let units: [(&[&str], f64); 3] = [(&["n", "m"], 1.0), (&["nm"], 1.0), (&["mn", "m"], 1e-3)];
+        let ends_with = |unit: &[&str]| words.len() > unit.len() && words[words.len() - unit.len()..] == *unit;
+        return units.iter().find(|(unit, _)| ends_with(unit)).map(|&(_, factor)| LogColumn::Torque { factor });
     }
     if has(&[
         "squares",
@@ -134,7 +144,7 @@ mod tests {
 
     #[test]
     fn headers_as_programs_write_them() {
-        use LogColumn::{MotorCommand, MotorSpeed, Rate, Time, TimeWithoutUnit};
+        use LogColumn::{MotorCommand, MotorSpeed, Rate, Time, TimeWithoutUnit, Torque};
         let deg = TAU / 360.0;
         for (header, column) in [
             ("time_s", Time { factor: 1.0 }),
@@ -159,6 +169,9 @@ mod tests {
             ("speed_2_rad_s", MotorSpeed { motor: 2, rev_s: 1.0 / TAU }),
             ("esc[0].esc_rpm", MotorSpeed { motor: 0, rev_s: 1.0 / 60.0 }),
             ("rotor3_speed_rev_s", MotorSpeed { motor: 3, rev_s: 1.0 }),
+            ("Torque (N·m)", Torque { factor: 1.0 }),
+            ("torque_n_m", Torque { factor: 1.0 }),
+            ("torque [mN m]", Torque { factor: 1e-3 }),
         ] {
             assert_eq!(column_of(header), Some(column), "{header}");
         }
@@ -168,6 +181,8 @@ mod tests {
             "velocity_x_m_s",
             "thrust_1_n",
             "torque_1_n_m",
+            "torque",
+            "torque_setpoint_n_m",
             "command_roll",
             "roll_deg",
             "battery_v",

@@ -174,7 +174,7 @@ fn meaning_of_rcbenchmark(header: &str) -> Option<LogColumn> {
     match header {
         RCBENCHMARK_COMMAND => Some(LogColumn::MotorCommand { motor: 1 }),
         header if RCBENCHMARK_SPEEDS.contains(&header) => Some(LogColumn::MotorSpeed { motor: 1, rev_s: 1.0 / 60.0 }),
-        header => column_of(header).filter(|meaning| matches!(meaning, LogColumn::Time { .. })),
+        header => column_of(header).filter(|meaning| matches!(meaning, LogColumn::Time { .. } | LogColumn::Torque { .. })),
     }
 }
 
@@ -184,6 +184,7 @@ fn signal_of(name: &str, meaning: Option<LogColumn>) -> (TableSignal, f64) {
     match meaning {
         Some(LogColumn::MotorSpeed { motor, rev_s }) => (with_role(SignalRole::RotorSpeed(motor)), rev_s),
         Some(LogColumn::MotorCommand { motor }) => (with_role(SignalRole::Command(motor)), 1.0),
+        Some(LogColumn::Torque { factor }) => (with_role(SignalRole::Torque), factor),
         Some(LogColumn::Rate { axis, factor }) => (with_role(SignalRole::BodyRate(axis)), factor),
         Some(LogColumn::Time { factor }) => (TableSignal::plain(name.to_owned()), factor),
         Some(LogColumn::TimeWithoutUnit) | None => {
