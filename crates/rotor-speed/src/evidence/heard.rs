@@ -11,7 +11,7 @@ use super::levels::{NoiseLevel, noise_level};
 use super::presence::Presence;
 use super::prior::nats_of_vehicle;
 use super::rotor_lines::RotorLines;
-use super::search::{Multiple, Search};
+use super::search::{Multiple, Search, VOTES_SHARE_MIN};
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
@@ -38,17 +38,34 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
 /// What sounds in some frames.
 enum Heard {
     Rotor(Beliefs),
-    /// A voice, and the frames in which it sounds, without its lines.
-    Voice(Looks),
+    Voice(HeardVoice),
 }
 
-/// The beliefs in the sound without the voices that are heard in it.
+/// A voice or an instrument, which explains the frames far better than any rotor.
+struct HeardVoice {
+    /// What it has more than the most probable rotor, in nats a frame.
+    gain_nats: f64,
+    /// Median of the votes for that rotor.
+    rotor_votes_nats: f64,
+    /// The frames in which it sounds, without its lines.
+    without: Looks,
+}
+
+/// The beliefs in the sound without the voices that are heard in it. The rotor goes on while a voice sounds, so that it keeps most of its votes: a
+/// motor that jumps from speed to speed leaves a small rest of its lines, which is no rotor.
 fn beliefs_beside_voices(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     let mut without_voice: Option<Looks> = None;
+    let mut votes_nats_min = 0.0;
     for _ in 0..=VOICES_MAX {
         match beliefs_of(without_voice.as_ref().unwrap_or(looks), wanted, config)? {
-            Heard::Rotor(beliefs) => return Some(Beliefs { without_voice, ..beliefs }),
-            Heard::Voice(without) => without_voice = Some(without),
+            Heard::Rotor(beliefs) => {
+                let votes_nats = beliefs.hypotheses.first()?.votes_nats;
+                return (votes_nats >= votes_nats_min).then_some(Beliefs { without_voice, ..beliefs });
+            }
+            Heard::Voice(voice) => {
+                votes_nats_min = f64::max(votes_nats_min, VOTES_SHARE_MIN * voice.rotor_votes_nats);
+                without_voice = Some(voice.without);
+            }
         }
     }
     None
@@ -63,16 +80,16 @@ fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> O
     let heard =
         of_propellers.into_iter().filter(|look| is_possible(look) && presence.is_heard(&look.hypotheses, config));
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
-    let mut loudest: Option<(f64, Looks)> = None;
+    let mut loudest: Option<HeardVoice> = None;
     for look in heard {
         match voice_beside(&look, looks, config) {
-            Some(voice) => loudest = loudest.filter(|(nats, _)| *nats >= voice.0).or(Some(voice)),
+            Some(voice) => loudest = loudest.filter(|it| it.gain_nats >= voice.gain_nats).or(Some(voice)),
             None => hypotheses
                 .extend(look.hypotheses.into_iter().map(|it| Hypothesis { nats: it.nats + look.share_nats, ..it })),
         }
     }
     if hypotheses.is_empty() {
-        return loudest.map(|(_, without)| Heard::Voice(without));
+        return loudest.map(Heard::Voice);
     }
     let hypotheses = with_beliefs(hypotheses);
     let better = again
@@ -81,9 +98,8 @@ fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> O
     Some(Heard::Rotor(Beliefs { hypotheses, noise, is_faint: false, better, without_voice: None }))
 }
 
-/// What a voice or an instrument has more than the most probable hypothesis, in nats a frame, where it explains the frames far better; with the
-/// frames in which it sounds, without its lines.
-fn voice_beside(look: &OfPropeller, looks: &Looks, config: &EvidenceConfig) -> Option<(f64, Looks)> {
+/// The voice or the instrument that explains the frames far better than the most probable hypothesis. `None` where none does.
+fn voice_beside(look: &OfPropeller, looks: &Looks, config: &EvidenceConfig) -> Option<HeardVoice> {
     let first = look.hypotheses.first()?;
     let searched;
     let search = match &look.search {
@@ -94,7 +110,11 @@ fn voice_beside(look: &OfPropeller, looks: &Looks, config: &EvidenceConfig) -> O
         }
     };
     let voice = search.voice_beside(first.speed_rev_s).filter(|voice| voice.gain_nats >= config.jumps_nats_max)?;
-    Some((voice.gain_nats, voice.left_out_of(looks, |point| search.speed_rev_s(point))))
+    Some(HeardVoice {
+        gain_nats: voice.gain_nats,
+        rotor_votes_nats: first.votes_nats,
+        without: voice.left_out_of(looks, |point| search.speed_rev_s(point)),
+    })
 }
 
 /// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames over the near

@@ -22,7 +22,7 @@ const RELATED: f64 = 0.05;
 /// An octave down, none, and one up. *Physics.*
 const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
 /// Smallest share of the most votes that a rotor's path has, less some nats. *Decision.*
-const VOTES_SHARE_MIN: f64 = 0.5;
+pub(super) const VOTES_SHARE_MIN: f64 = 0.5;
 /// These nats. *Decision.*
 pub(super) const VOTES_NATS_APART: f64 = 3.0;
 /// Paths whose mean distance is at most this many points are one path. *Numeric.*
