@@ -17,7 +17,8 @@ use hovertone::motors::HeardCommands;
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
 use hovertone_dynamics::{
-    BenchTorque, CommandSeries, MotorConfig, MotorSeries, TorqueSeries, command_of_speed, motor_from_series, torque_of_motor,
+    BenchTorque, CommandSeries, MotorConfig, MotorSeries, TorqueSeries, command_of_speed, motor_from_series,
+    torque_of_motor,
 };
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
@@ -143,7 +144,8 @@ impl<'a> Plan<'a> {
                 rows.push(MotorRows { time_s: motor.time_s, speed_rev_s: motor.speed_rev_s });
             }
         }
-        let record = MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors, torque: None };
+        let record =
+            MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors, torque: None };
         let idle_mass = idle_mass(&self.arguments.known, &self.config.known);
         let notices = idle_mass.into_iter().chain(heard.notices).chain(misaligned).collect();
         Ok(Told { record, rows, notices, is_whole: true })

@@ -91,9 +91,8 @@ pub(crate) fn torque_of_levels(series: &MotorSeries, torque: &TorqueSeries, held
     let squares = weighted(&|level| (level.speed_square_rad2_s2 - square).powi(2));
     let products = weighted(&|level| (level.speed_square_rad2_s2 - square) * (level.torque_n_m - torque_mean));
     let slope = products / squares;
-    let chi_square = weighted(&|level| {
-        (level.torque_n_m - torque_mean - slope * (level.speed_square_rad2_s2 - square)).powi(2)
-    });
+    let chi_square =
+        weighted(&|level| (level.torque_n_m - torque_mean - slope * (level.speed_square_rad2_s2 - square)).powi(2));
     let excess = (chi_square / (level_count - 2) as f64).max(1.0);
     BenchTorque::Told {
         constant_n_m_s2: Estimate {

@@ -6,7 +6,8 @@ use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::{
-    BenchTorque, CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, MotorStep, StepVerdict, constants_of,
+    BenchTorque, CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, MotorStep, StepVerdict,
+    constants_of,
 };
 use hovertone_vehicle::Estimate;
 use std::f64::consts::TAU;

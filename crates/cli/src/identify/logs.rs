@@ -5,12 +5,12 @@ use crate::failure::Failure;
 use crate::files::sha256_of_file;
 use crate::labels::{labels_of_record, logs_of_motors};
 use crate::log::{column_names, loss_notice};
-use crate::motor::{flight_of, motors_of};
+use crate::motor::{flight_of, motors_of_log};
 use crate::recording::Job;
 use crate::verify::tracks_of;
 use hovertone::rotors::{FlightLog, LabelsConfig, LoggedSpeeds, NotVerified, verification_from_log};
 use hovertone_logs::LoggedFlight;
-use hovertone_report::{FlightLogRecord, MotorRecord, MotorSource, Notice, SpeedRecord};
+use hovertone_report::{FlightLogRecord, Notice, SpeedRecord};
 
 /// A log that was read.
 pub(crate) struct FlownLog {

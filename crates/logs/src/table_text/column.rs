@@ -45,7 +45,8 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
             None => LogColumn::TimeWithoutUnit,
         });
     }
-    if has(&["torque"]) && !has(&["setpoint", "desired", "target"]) && !words.iter().any(|it| it.parse::<u32>().is_ok()) {
+    if has(&["torque"]) && !has(&["setpoint", "desired", "target"]) && !words.iter().any(|it| it.parse::<u32>().is_ok())
+    {
         // what names no unit may be a share of the largest torque
         let units: [(&[&str], f64); 3] = [(&["n", "m"], 1.0), (&["nm"], 1.0), (&["mn", "m"], 1e-3)];
         let ends_with = |unit: &[&str]| words.len() > unit.len() && words[words.len() - unit.len()..] == *unit;

@@ -174,7 +174,9 @@ fn meaning_of_rcbenchmark(header: &str) -> Option<LogColumn> {
     match header {
         RCBENCHMARK_COMMAND => Some(LogColumn::MotorCommand { motor: 1 }),
         header if RCBENCHMARK_SPEEDS.contains(&header) => Some(LogColumn::MotorSpeed { motor: 1, rev_s: 1.0 / 60.0 }),
-        header => column_of(header).filter(|meaning| matches!(meaning, LogColumn::Time { .. } | LogColumn::Torque { .. })),
+        header => {
+            column_of(header).filter(|meaning| matches!(meaning, LogColumn::Time { .. } | LogColumn::Torque { .. }))
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::floor::{Floor, FloorShape, FloorSums};
 use super::level_table::{Level, LevelTable, UNKNOWN};
 use super::near_floor::{NearFloor, levels_over};
-use super::pauses::drop_rests;
+use super::pauses::{drop_rests, quiet_frames};
 use super::rounding::Rounding;
 use hovertone_signal::SteadyLines;
 use hovertone_signal::spectrogram::{Stft, Window};
@@ -92,6 +92,14 @@ impl Excess {
     pub(crate) fn within(&self, spans_s: &[Range<f64>]) -> Self {
         let is_within = |frame: &ExcessFrame| spans_s.iter().any(|span_s| span_s.contains(&frame.centre_s));
         self.with_levels(|frame| is_within(frame).then(|| Arc::clone(&frame.levels)))
+    }
+
+    /// The quieter frames, in which a voice pauses.
+    pub(crate) fn quieter(&self) -> Self {
+        let is_quiet = quiet_frames(&self.frames);
+        let frames = self.frames.iter().zip(is_quiet).filter_map(|(frame, is_quiet)| is_quiet.then(|| frame.clone()));
+        let [floor, near_floor] = [&self.floor, &self.near_floor].map(Arc::clone);
+        Self { bin_hz: self.bin_hz, frames: frames.collect(), floor, near_floor }
     }
 
     /// The frames for which there are levels, with these levels.

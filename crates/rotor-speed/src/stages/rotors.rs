@@ -69,20 +69,25 @@ pub(crate) fn rotors_from_hover(
 }
 
 /// The tracks without those whose own lines are not heard: the lines that a rotor shares with no other one, in short and long frames together. Long
-/// frames resolve rotors that are close. A rotor that has no such line stays, because nothing can be said of it. The most doubtful one goes
-/// first: its lines may hide those of others. Behind a gear, propellers may be inaudible: then all rotors stay. But where one is heard, those of
+/// frames resolve rotors that are close. In the quieter frames they must not speak against it, because a voice pauses and a rotor does not. A rotor
+/// that has no such line stays, because nothing can be said of it. The most doubtful one goes first: its lines may hide those of others. Behind a gear, propellers may be inaudible: then all rotors stay. But where one is heard, those of
 /// the others are, too: what has none is a side line of a mesh, which the motor's turns make.
 fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> RotorTracks {
     let of_tone = blades_of_tone(&config.tone);
     let Some(blades) = of_tone.or(config.tone.blades) else { return tracks };
     let nats_min = config.evidence.own_lines_nats_min;
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    let mut seen = [&surveyed.looks.short, &surveyed.looks.long]
-        .map(|look| SeenRotors::new(look.within(&hover.spans_s()), &tracks));
+    let looks = [&surveyed.looks.short, &surveyed.looks.long].map(|look| look.within(&hover.spans_s()));
+    let mut in_quiet = looks.each_ref().map(|look| SeenRotors::new(look.quieter(), &tracks));
+    let mut in_all = looks.map(|look| SeenRotors::new(look, &tracks));
     loop {
-        let own_nats = |rotor: usize| {
-            let nats = seen.iter().filter_map(|seen| seen.own_nats(rotor, &propeller));
+        let nats_in = |looks: &[SeenRotors; 2], rotor: usize| {
+            let nats = looks.iter().filter_map(|seen| seen.own_nats(rotor, &propeller));
             nats.reduce(|short, long| short + long)
+        };
+        let own_nats = |rotor: usize| {
+            let nats = nats_in(&in_all, rotor)?;
+            Some(nats_in(&in_quiet, rotor).map_or(nats, |quiet_nats| nats.min(nats_min + quiet_nats)))
         };
         let all: Vec<(usize, f64)> =
             (0..tracks.rotors.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?))).collect();
@@ -92,7 +97,7 @@ fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, 
         match all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
             Some((rotor, nats)) if nats < nats_min => {
                 tracks.rotors[rotor].track.blocks.clear();
-                seen.iter_mut().for_each(|seen| seen.speeds_rev_s[rotor] = None);
+                in_all.iter_mut().chain(&mut in_quiet).for_each(|seen| seen.speeds_rev_s[rotor] = None);
             }
             _ => return tracks,
         }
