@@ -7,10 +7,10 @@ use std::ops::Range;
 const QUIET_SHARE: f64 = 0.01;
 /// Shortest rest between two flights, s. *Decision.*
 const REST_S_MIN: f64 = 3.0;
-/// Share of the frames around that are the quieter ones. *Decision.*
+/// Share of the frames of a block that are the quieter ones. *Decision.*
 const QUIET_FRAMES_SHARE: f64 = 0.33;
-/// Time to either side of a frame that is around it, s: a breath of a voice. *Decision.*
-const AROUND_S: f64 = 1.5;
+/// Length of a block, s: a few words of a voice. *Decision.*
+const BLOCK_S: f64 = 2.0;
 
 /// Drops the frames before take-off, after landing, and between flights, by the loudest quarter of the frames. A shorter pause is dropped only
 /// where it is quiet by the louder half: a rotor makes none, and a tune of beeps is told by its pauses.
@@ -33,13 +33,15 @@ pub(super) fn drop_rests(frames: &mut Vec<ExcessFrame>) {
     frames.retain(|frame| frame.mean_power > power_min && !is_in_rest(frame));
 }
 
-/// Whether each frame is one of the quieter ones around it. What pauses, as a voice does between its words, is not in these.
+/// Whether each frame is one of the quieter ones of its block. What pauses, as a voice does between its words, is not in these. As each block has
+/// the same share of them, a take-off counts no more than it does among all frames.
 pub(super) fn quiet_frames(frames: &[ExcessFrame]) -> Vec<bool> {
-    let is_quiet = |frame: &ExcessFrame| {
-        let from = frames.partition_point(|other| other.centre_s < frame.centre_s - AROUND_S);
-        let to = frames.partition_point(|other| other.centre_s <= frame.centre_s + AROUND_S);
-        let quieter = frames[from..to].iter().filter(|other| other.mean_power < frame.mean_power).count();
-        (quieter as f64) < QUIET_FRAMES_SHARE * (to - from) as f64
+    let block = |frame: &ExcessFrame| (frame.centre_s / BLOCK_S).floor();
+    let of_block = |block: &[ExcessFrame]| {
+        let mut powers: Vec<f64> = block.iter().map(|frame| frame.mean_power).collect();
+        powers.sort_by(f64::total_cmp);
+        let last = ((QUIET_FRAMES_SHARE * powers.len() as f64) as usize).min(powers.len() - 1);
+        block.iter().map(|frame| frame.mean_power <= powers[last]).collect::<Vec<bool>>()
     };
-    frames.iter().map(is_quiet).collect()
+    frames.chunk_by(|a, b| block(a) == block(b)).flat_map(of_block).collect()
 }
