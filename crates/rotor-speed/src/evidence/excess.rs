@@ -97,7 +97,7 @@ impl Excess {
     /// The quieter frames, in which a voice pauses.
     pub(crate) fn quieter(&self) -> Self {
         let is_quiet = quiet_frames(&self.frames);
-        let frames = self.frames.iter().zip(is_quiet).filter_map(|(frame, is_quiet)| is_quiet.then(|| frame.clone()));
+        let frames = self.frames.iter().zip(is_quiet).filter(|(_, is_quiet)| *is_quiet).map(|(frame, _)| frame.clone());
         let [floor, near_floor] = [&self.floor, &self.near_floor].map(Arc::clone);
         Self { bin_hz: self.bin_hz, frames: frames.collect(), floor, near_floor }
     }

@@ -70,8 +70,9 @@ pub(crate) fn rotors_from_hover(
 
 /// The tracks without those whose own lines are not heard: the lines that a rotor shares with no other one, in short and long frames together. Long
 /// frames resolve rotors that are close. In the quieter frames they must not speak against it, because a voice pauses and a rotor does not. A rotor
-/// that has no such line stays, because nothing can be said of it. The most doubtful one goes first: its lines may hide those of others. Behind a gear, propellers may be inaudible: then all rotors stay. But where one is heard, those of
-/// the others are, too: what has none is a side line of a mesh, which the motor's turns make.
+/// that has no such line stays, because nothing can be said of it. The most doubtful one goes first: its lines may hide those of others. Behind a
+/// gear, propellers may be inaudible: then all rotors stay. But where one is heard, those of the others are, too: what has none is a side line of a
+/// mesh, which the motor's turns make.
 fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> RotorTracks {
     let of_tone = blades_of_tone(&config.tone);
     let Some(blades) = of_tone.or(config.tone.blades) else { return tracks };
