@@ -135,6 +135,28 @@ fn beside_a_rotor_it_does_not_change_the_answer() {
     assert!((right + near) as f64 >= 0.9 * total as f64 && right as f64 >= 0.85 * total as f64, "{right} of {total}");
 }
 
+/// The lines of a melody are left out of the sound, and the rotor is heard beside it. Speech pauses, so that it is no rotor.
+#[test]
+fn a_rotor_is_heard_beside_a_melody_and_a_voice_is_none() {
+    let kind = |name: &str| KINDS.iter().find(|kind| kind.name == name).expect("a kind");
+    let mut heard = 0;
+    for seed in 0..4 {
+        let Hover { truth_rev_s, samples } = hover(seed);
+        let melody = kind("melody").sound(seed + 70, 8.0);
+        let mixed: Vec<f32> = samples.iter().zip(&melody).map(|(rotor, melody)| rotor + melody).collect();
+        if let Outcome::Ok(tone) = analyse(mixed, &config(2.0)).outcome {
+            let error = tone.speeds[0].speed.rev_s() / truth_rev_s - 1.0;
+            assert!(error.abs() < 0.01 || !tone.alternatives.is_empty(), "{seed}: {error}");
+            heard += u32::from(error.abs() < 0.01);
+        }
+        for blades in [2.0, 3.0] {
+            assert!(hears_nothing(&analyse(kind("speech").sound(seed + 70, 8.0), &config(blades))), "{seed}");
+        }
+    }
+    println!("{heard} of 4 rotors heard beside a melody as loud");
+    assert!(heard >= 2, "{heard}");
+}
+
 fn is_mains_hum(samples: Vec<f32>, config: &Config) -> bool {
     matches!(analyse(samples, config).outcome, Outcome::NoRotorTone { reason: NoTone::MainsHum { .. } })
 }

@@ -45,3 +45,26 @@ pub(super) fn quiet_frames(frames: &[ExcessFrame]) -> Vec<bool> {
     };
     frames.chunk_by(|a, b| block(a) == block(b)).flat_map(of_block).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::excess::Excess;
+
+    #[test]
+    fn each_block_has_the_same_share_of_quieter_frames() {
+        // a take-off, a hover, and words with pauses
+        let mut frames = Excess::of_levels(2.5, HOP_S, 160, &[100; 8]).frames;
+        for (number, frame) in frames.iter_mut().enumerate() {
+            let word = if number % 10 < 6 { 3.0 } else { 1.0 };
+            frame.mean_power = if number < 40 { number as f64 } else { 100.0 * word + (number * 7 % 5) as f64 };
+        }
+        let quiet = quiet_frames(&frames);
+        let count = |block: usize| quiet[40 * block..40 * (block + 1)].iter().filter(|is_quiet| **is_quiet).count();
+        for block in 0..4 {
+            assert!((13..=16).contains(&count(block)), "{block}: {}", count(block));
+        }
+        // in the words none, but in the pauses
+        assert!((40..160).all(|number| !quiet[number] || number % 10 >= 6));
+    }
+}
