@@ -10,8 +10,8 @@ use crate::terminal::Terminal;
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
     ForcePoint, Gravity, NoScatter, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, ThrustWarning,
-    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, least_tip_mach, row_drifts, square_law_fit,
-    torque_constant_n_m_s2, warnings_of_points,
+    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, least_diameter_m, least_tip_mach, row_drifts,
+    square_law_fit, torque_constant_n_m_s2, warnings_of_points,
 };
 use hovertone_exchange::{CsvError, StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text, significant};
@@ -24,6 +24,8 @@ use std::path::Path;
 const ADDED_MASS_SHARE: f64 = 0.25;
 /// The air changes C_T by less: thin air on the highest mountains has a third of the density at sea level.
 const FAR_OFF_FACTOR: f64 = 3.0;
+/// Propellers of the largest multirotors are smaller.
+const DIAMETER_M_MAX: f64 = 2.0;
 /// Number of rotors of most multirotors.
 const ROTORS_OF_MOST: u32 = 4;
 
@@ -179,6 +181,7 @@ fn fitted_table(
     );
     let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m));
     let too_strong = of_any_air()
+        .or_else(|| too_large_notice(per_rotor))
         .or_else(|| too_strong_notice(group, per_rotor, plan.is_count_given))
         .filter(|_| coefficients.is_none());
     let has_std = |point: &&ForcePoint| point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0;
@@ -255,6 +258,14 @@ fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Notice> {
     );
     let hint = "check the units of the forces and of the speeds (rpm, rev/s or rad/s), the diameter, and --rotors";
     is_far.then(|| Notice::new(text, hint))
+}
+
+/// Says that a propeller with such a constant would be larger than any multirotor's.
+fn too_large_notice(per_rotor: Estimate) -> Option<Notice> {
+    let diameter_m = least_diameter_m(per_rotor.value);
+    let text = format!("a propeller with this C_f would have a diameter of {} m or more", significant(diameter_m, 2));
+    let hint = "check whether the columns of speed and force are exchanged, and check their units";
+    (diameter_m > DIAMETER_M_MAX).then(|| Notice::new(text, hint))
 }
 
 /// Says that no propeller has such a thrust.

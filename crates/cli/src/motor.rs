@@ -157,7 +157,10 @@ impl Plan<'_> {
     fn nothing_held(&self) -> String {
         let is_part = self.arguments.from.or(self.arguments.to).is_some();
         let advice = if is_part { "choose a longer part with --from and --to" } else { "record a longer run" };
-        format!("no speed is held for a second; {advice}, in which each speed is held for a second or longer")
+        format!(
+            "no speed is held for a second, or the rotor is too faint to be followed from moment to moment; {advice}, in which each speed is \
+             held for a second or longer, or place the microphone nearer"
+        )
     }
 
     /// That the steps of commands and sound agree at another offset than the given one.

@@ -106,7 +106,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     );
     if let Some(both) = table.thrust_coefficients {
         text += &format!(
-            "C_T = {} = T/(ρ n² D⁴), or {} = T/(ρ A (ωR)²); air {} kg/m³\n",
+            "C_T = {} by T/(ρ n² D⁴), or {} by T/(ρ A (ωR)²), for the thrust T of one rotor in air of {} kg/m³\n",
             significant(both.propeller, 4),
             significant(both.rotorcraft, 4),
             significant(both.density_kg_m3, 4)

@@ -122,9 +122,11 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
         }
         MotorSource::Sound(sound) => {
             let frame_ms = significant(sound.frame_s * MS_PER_S, 3);
+            let has_steps = shown_steps(record).next().is_some();
             let heard = format!(
-                "found from the sound, in pieces of {frame_ms} ms; in a room with echo, a time constant can be far off\n"
+                "the steps are heard in the sound, in pieces of {frame_ms} ms; an echo of the room can make their time constants wrong by some per cent\n"
             );
+            let heard = if has_steps { heard } else { String::new() };
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {
                 let offset_s = fixed(offset_s, 3);
                 format!("offset of the commands {offset_s} s, found from the steps. So the dead time is not known; if you know the offset \

@@ -127,15 +127,14 @@ pub(crate) fn undecided_check(found: &Verification) -> Option<Notice> {
     }
     let means = format!("the means are equal within {} %, but", fixed(100.0 * (found.speed_ratio - 1.0).abs(), 2));
     let few = format!(
-        "only {} of the points of the heard speeds lie within ± of the log, and 95 % should",
+        "the logged speed lies within the ± of the heard speed in only {} of the points, and 95 % is normal",
         percent_in_words(found.coverage())
     );
     let is_scattered = found.agreement == Agreement::Scattered;
     if found.is_offset_told || found.is_offset_given || is_scattered {
         return Some(Notice::new(
             format!("{means} {few}"),
-            "check that the log is of this flight, and that the offset of the clocks is right; where rotors were not separated, place the \
-             microphone nearer",
+            "check first that the log is of this flight, and then the offset of the clocks",
         ));
     }
     let also = if found.coverage() < COVERAGE_OF_HALF { format!("; and {few}") } else { String::new() };

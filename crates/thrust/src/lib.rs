@@ -33,7 +33,7 @@ mod weighing;
 
 pub use air::{
     Air, Gravity, ThrustCoefficients, TorqueReading, check_gravity, check_latitude, figure_of_merit, gravity_m_s2,
-    is_plausible_merit, least_tip_mach, thrust_constant_n_s2, torque_constant_n_m_s2,
+    is_plausible_merit, least_diameter_m, least_tip_mach, thrust_constant_n_s2, torque_constant_n_m_s2,
 };
 pub use budget::{BudgetInput, BudgetLine, UncertaintyBudget};
 pub use campaign::TrialBootstrap;

@@ -164,7 +164,10 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
     let folder = if root.as_os_str().is_empty() { "this folder".to_owned() } else { root.display().to_string() };
     let notes = if source.has_notes { "; the notes at the top of the file may say where they come from" } else { "" };
     let what = format!("no file in {folder} matches {list}");
-    let hint = if source.typed.is_some() {
+    let is_list = |missing: &&Missing<'_>| missing.name.split(',').all(|part| place_of(part.trim(), root).is_file());
+    let hint = if let Some(list) = missing.iter().find(is_list) {
+        format!("a comma does not separate recordings: name each of {} by itself", list.name.replace(',', " and "))
+    } else if source.typed.is_some() {
         "correct the names: they count from the current folder, or from --data-root".to_owned()
     } else if is_root_given {
         format!("put them into the folder that --data-root names, or name another{notes}")

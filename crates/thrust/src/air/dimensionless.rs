@@ -39,9 +39,13 @@ impl ThrustCoefficients {
 /// Least Mach number of the tips of a propeller with this thrust constant, N s², at this speed: that of the smallest one, with the largest C_T, in
 /// air of 1.2 kg/m³. `M = D ω / (2 a)`, where `D⁴ = C_f (2π)² / (ρ C_T)`.
 pub fn least_tip_mach(thrust_constant_n_s2: f64, speed: RotorSpeed) -> f64 {
+    least_diameter_m(thrust_constant_n_s2) * speed.rad_s() / (2.0 * SOUND_M_S)
+}
+
+/// Diameter of the smallest propeller with a thrust constant: that of the largest C_T, in air of sea level.
+pub fn least_diameter_m(thrust_constant_n_s2: f64) -> f64 {
     let fourth_power_m4 = thrust_constant_n_s2 * TAU.powi(2) / (AIR_KG_M3 * THRUST_COEFFICIENT.end());
-    let diameter_m = fourth_power_m4.sqrt().sqrt();
-    diameter_m * speed.rad_s() / (2.0 * SOUND_M_S)
+    fourth_power_m4.sqrt().sqrt()
 }
 
 /// Figure of merit: the ideal power of momentum theory, T √(T/(2 ρ A)), over the real power. With the power of the shaft it describes

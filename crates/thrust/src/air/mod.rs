@@ -5,7 +5,8 @@ mod dimensionless;
 mod gravity;
 
 pub use dimensionless::{
-    ThrustCoefficients, TorqueReading, figure_of_merit, is_plausible_merit, least_tip_mach, torque_constant_n_m_s2,
+    ThrustCoefficients, TorqueReading, figure_of_merit, is_plausible_merit, least_diameter_m, least_tip_mach,
+    torque_constant_n_m_s2,
 };
 pub use gravity::{Gravity, check_gravity, check_latitude, gravity_m_s2, thrust_constant_n_s2};
 
