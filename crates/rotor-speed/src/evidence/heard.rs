@@ -55,7 +55,7 @@ struct HeardVoice {
 /// motor that jumps from speed to speed leaves a small rest of its lines, which is no rotor.
 fn beliefs_beside_voices(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     let mut without_voice: Option<Looks> = None;
-    let mut votes_nats_min = 0.0;
+    let mut votes_nats_min = f64::NEG_INFINITY;
     for _ in 0..=VOICES_MAX {
         match beliefs_of(without_voice.as_ref().unwrap_or(looks), wanted, config)? {
             Heard::Rotor(beliefs) => {

@@ -22,7 +22,7 @@
 //!
 //! 10. *Heard* (`heard`): these steps one after the other.
 //!
-//! A rotor is heard where the median of the votes is at least 1.4 nats, over all frames and over the quieter third (`pauses`), because a voice
+//! A rotor is heard where the median of the votes is at least 1.4 nats, and that of the quieter third (`pauses`) is not negative, because a voice
 //! pauses and a rotor does not; where each look has 4.6 nats of levels over a flat floor (0 in a band narrower than an octave); and where its lines
 //! stand apart in a frame (from 30 rev/s on, unless it is known to be slow). A faint one is heard in long frames alone, without votes, where its
 //! lines keep their phase.
