@@ -196,7 +196,7 @@ fn a_thrust_stand_tells_time_constants_and_its_saturated_step() {
     let shown = hovertone(&["motor", text(&log)]).ends_with(0).stdout;
     let gains = shown.split("C_τ").next().unwrap_or_default();
     assert!(shown.contains("line at command 0") && !gains.contains('−'), "{shown}");
-    // the stand shows −0.0039 N m at rest, and 0.0388 N m at 353 rev/s: (0.0388 + 0.0039)/(2π 353)² = 8.7e-9
+    // the stand shows −0.0039 N m at rest, and 0.0373 N m at 348 rev/s: (0.0373 + 0.0039)/(2π 348)² = 8.6e-9
     let [constant, std] = ["", "_std"].map(|of| line[format!("torque_constant{of}_n_m_s2")].as_f64().unwrap());
     assert!((constant - 8.7e-9).abs() < 0.2e-9 && std < 0.1e-9, "{constant} {std}");
     assert!(shown.contains("C_τ of one rotor: (8."), "{shown}");
