@@ -20,9 +20,10 @@ impl<'a> Presence<'a> {
     }
 
     /// Whether a rotor is heard, by the hypotheses with one propeller: the first, most probable one has the levels in each look, and the one with the
-    /// best levels has the votes. The quieter frames do not vote against it, because a voice pauses and a rotor does not. What is known of the vehicle tells octaves
-    /// apart, and no rotor from none. A gear mesh that is followed is more probable than none: the propeller alone may be mains hum. Beside the mesh
-    /// the propeller may be inaudible, but then it is so in both looks.
+    /// best levels has the votes. The quieter frames do not vote against it, because a voice pauses and a rotor does not.
+    ///
+    /// What is known of the vehicle tells octaves apart, and no rotor from none. A gear mesh that is followed is more probable than none: the
+    /// propeller alone may be mains hum. Beside the mesh the propeller may be inaudible, but then it is so in both looks.
     pub(super) fn is_heard(&mut self, hypotheses: &[Hypothesis], config: &EvidenceConfig) -> bool {
         let best = hypotheses.iter().max_by(|a, b| a.levels_nats.total_cmp(&b.levels_nats));
         hypotheses.first().zip(best).is_some_and(|(first, best)| {
