@@ -3,7 +3,8 @@
 //! τ = τ₀ + C_τ ω², with τ₀ of a scale that was not set to zero. Where a speed is settled, the rotor's inertia takes no torque.
 
 use crate::plateaus::{HeldCommand, settled_of};
-use crate::series::{MotorSeries, std_uncertainty_of_long_mean};
+use crate::series::{MotorSeries, rows_between, std_uncertainty_of_long_mean};
+use crate::weighted_line::{WeightedLine, WeightedPoint};
 use hovertone_signal::statistics::mean;
 use hovertone_vehicle::{Ending, Estimate};
 use std::f64::consts::TAU;
@@ -78,29 +79,23 @@ pub(crate) fn torque_of_levels(series: &MotorSeries, torque: &TorqueSeries, held
         return BenchTorque::FewLevels { level_count };
     }
     // a level whose rows are all equal is not exact
-    let stds = || levels.iter().map(|level| level.torque_std_n_m);
-    let std_min = stds().sum::<f64>() / (10.0 * level_count as f64);
-    let weight_of = |level: &Level| level.torque_std_n_m.max(std_min).powi(-2);
+    let std_min = levels.iter().map(|level| level.torque_std_n_m).sum::<f64>() / (10.0 * level_count as f64);
     if std_min <= 0.0 {
         return BenchTorque::FewLevels { level_count: 0 };
     }
-    let weight: f64 = levels.iter().map(weight_of).sum();
-    let weighted = |value: &dyn Fn(&Level) -> f64| levels.iter().map(|it| weight_of(it) * value(it)).sum::<f64>();
-    let square = weighted(&|level| level.speed_square_rad2_s2) / weight;
-    let torque_mean = weighted(&|level| level.torque_n_m) / weight;
-    let squares = weighted(&|level| (level.speed_square_rad2_s2 - square).powi(2));
-    let products = weighted(&|level| (level.speed_square_rad2_s2 - square) * (level.torque_n_m - torque_mean));
-    let slope = products / squares;
-    let chi_square =
-        weighted(&|level| (level.torque_n_m - torque_mean - slope * (level.speed_square_rad2_s2 - square)).powi(2));
-    let excess = (chi_square / (level_count - 2) as f64).max(1.0);
+    let point = |level: &Level| WeightedPoint {
+        x: level.speed_square_rad2_s2,
+        y: level.torque_n_m,
+        weight: level.torque_std_n_m.max(std_min).powi(-2),
+    };
+    let line = WeightedLine::through(&levels.iter().map(point).collect::<Vec<WeightedPoint>>());
     BenchTorque::Told {
         constant_n_m_s2: Estimate {
-            value: slope.abs(),
-            std_uncertainty: Some((excess / squares).sqrt()),
+            value: line.slope.abs(),
+            std_uncertainty: Some(line.slope_variance.sqrt()),
             ending: Ending::Solved,
         },
-        offset_n_m: (torque_mean - slope * square) * slope.signum(),
+        offset_n_m: line.at_zero() * line.slope.signum(),
         level_count,
     }
 }
@@ -110,9 +105,7 @@ fn level_of(series: &MotorSeries, torque: &TorqueSeries, held: &HeldCommand) -> 
     let settled = settled_of(held);
     let speeds = series.between(settled.start, settled.end).speed_rev_s;
     let squares: Vec<f64> = speeds.iter().map(|speed_rev_s| (TAU * speed_rev_s).powi(2)).collect();
-    let from = torque.time_s.partition_point(|time_s| *time_s < settled.start);
-    let to = torque.time_s.partition_point(|time_s| *time_s < settled.end).max(from);
-    let torques = torque.torque_n_m.get(from..to)?;
+    let torques = torque.torque_n_m.get(rows_between(torque.time_s, settled.start, settled.end))?;
     Some(Level {
         speed_square_rad2_s2: mean(&squares).filter(|square| *square > 0.0)?,
         torque_n_m: mean(torques)?,

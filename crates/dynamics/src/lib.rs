@@ -27,6 +27,7 @@ mod series;
 mod static_map;
 mod step;
 mod transitions;
+mod weighted_line;
 
 pub use alignment::{offset_of_commands, other_offset_of_commands};
 pub use bench_torque::{BenchTorque, TorqueSeries};

@@ -1,6 +1,7 @@
 //! The square term of eq 2: the torque of the load grows with ω², so that a motor follows faster at higher speeds.
 
 use crate::step::{MotorStep, StepVerdict};
+use crate::weighted_line::{WeightedLine, WeightedPoint};
 use hovertone_vehicle::{Ending, Estimate};
 
 /// Fewest steps: a straight line through two points has no scatter. *Numeric.*
@@ -26,43 +27,29 @@ pub struct LoadTerm {
 /// about the line increases. `None` where the range of speeds is too small to tell it.
 pub(crate) fn load_term_of<'a>(steps: impl Iterator<Item = &'a MotorStep>) -> Option<LoadTerm> {
     let rising = steps.filter(|step| step.verdict == StepVerdict::Used && step.is_up());
-    let rates: Vec<Rate> = rising.filter_map(rate_of).collect();
+    let rates: Vec<WeightedPoint> = rising.filter_map(rate_of).collect();
     if rates.len() < STEPS_MIN {
         return None;
     }
-    let weight = rates.iter().map(|rate| rate.weight).sum::<f64>();
-    let speed = rates.iter().map(|rate| rate.weight * rate.speed_rev_s).sum::<f64>() / weight;
-    let rate_mean = rates.iter().map(|rate| rate.weight * rate.rate_per_s).sum::<f64>() / weight;
-    let squares: f64 = rates.iter().map(|rate| rate.weight * (rate.speed_rev_s - speed).powi(2)).sum();
-    let products = rates.iter().map(|rate| rate.weight * (rate.speed_rev_s - speed) * (rate.rate_per_s - rate_mean));
-    let slope = products.sum::<f64>() / squares;
-    let residual = |rate: &Rate| rate.rate_per_s - rate_mean - slope * (rate.speed_rev_s - speed);
-    let chi_square: f64 = rates.iter().map(|rate| rate.weight * residual(rate).powi(2)).sum();
-    let excess = (chi_square / (rates.len() - 2) as f64).max(1.0);
-    let slope_variance = excess / squares;
+    let line = WeightedLine::through(&rates);
+    let WeightedLine { x_mean: speed, y_mean: rate_mean, slope, slope_variance, .. } = line;
     let estimate =
         |value: f64, variance: f64| Estimate { value, std_uncertainty: Some(variance.sqrt()), ending: Ending::Solved };
-    let unloaded_variance = excess / weight + slope_variance * speed * speed;
+    let unloaded_variance = line.y_mean_variance + slope_variance * speed * speed;
     let share = estimate(slope * speed / rate_mean, slope_variance * (speed / rate_mean).powi(2));
     let is_told = share.std_uncertainty.is_some_and(|std| std <= SHARE_STD_MAX);
     is_told.then(|| LoadTerm {
-        unloaded_rate_per_s: estimate(rate_mean - slope * speed, unloaded_variance),
+        unloaded_rate_per_s: estimate(line.at_zero(), unloaded_variance),
         square_per_rev: estimate(slope / 2.0, slope_variance / 4.0),
         share,
     })
 }
 
-/// 1/τ of a step, at the speed that it belongs to.
-struct Rate {
-    speed_rev_s: f64,
-    rate_per_s: f64,
-    weight: f64,
-}
-
-fn rate_of(step: &MotorStep) -> Option<Rate> {
+/// 1/τ of a step, per second, over the speed that it belongs to, in rev/s.
+fn rate_of(step: &MotorStep) -> Option<WeightedPoint> {
     let time_constant_s = step.time_constant_s?;
     let rate_per_s = time_constant_s.value.recip();
     let std_per_s = time_constant_s.std_uncertainty? * rate_per_s * rate_per_s;
     let speed_rev_s = step.speed_to_rev_s - STEP_SHARE * (step.speed_to_rev_s - step.speed_from_rev_s);
-    (std_per_s > 0.0).then(|| Rate { speed_rev_s, rate_per_s, weight: std_per_s.powi(-2) })
+    (std_per_s > 0.0).then(|| WeightedPoint { x: speed_rev_s, y: rate_per_s, weight: std_per_s.powi(-2) })
 }

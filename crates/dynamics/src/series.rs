@@ -61,7 +61,8 @@ fn interval_s(time_s: &[f64]) -> Option<f64> {
     median(&intervals_s)
 }
 
-fn rows_between(time_s: &[f64], from_s: f64, to_s: f64) -> std::ops::Range<usize> {
+/// The rows from a time on, and before another.
+pub(crate) fn rows_between(time_s: &[f64], from_s: f64, to_s: f64) -> std::ops::Range<usize> {
     let from = time_s.partition_point(|&row_s| row_s < from_s);
     from..time_s.partition_point(|&row_s| row_s < to_s).max(from)
 }

@@ -98,15 +98,19 @@ impl Excess {
     pub(crate) fn quieter(&self) -> Self {
         let is_quiet = quiet_frames(&self.frames);
         let frames = self.frames.iter().zip(is_quiet).filter(|(_, is_quiet)| *is_quiet).map(|(frame, _)| frame.clone());
+        self.with_frames(frames.collect())
+    }
+
+    /// Other frames of the same sound.
+    fn with_frames(&self, frames: Vec<ExcessFrame>) -> Self {
         let [floor, near_floor] = [&self.floor, &self.near_floor].map(Arc::clone);
-        Self { bin_hz: self.bin_hz, frames: frames.collect(), floor, near_floor }
+        Self { bin_hz: self.bin_hz, frames, floor, near_floor }
     }
 
     /// The frames for which there are levels, with these levels.
     pub(super) fn with_levels(&self, levels_of: impl Fn(&ExcessFrame) -> Option<Arc<[Level]>>) -> Self {
         let with = |frame: &ExcessFrame| Some(ExcessFrame { levels: levels_of(frame)?, ..frame.clone() });
-        let [floor, near_floor] = [&self.floor, &self.near_floor].map(Arc::clone);
-        Self { bin_hz: self.bin_hz, frames: self.frames.iter().filter_map(with).collect(), floor, near_floor }
+        self.with_frames(self.frames.iter().filter_map(with).collect())
     }
 
     /// The same frames over the near floor. An echo makes waves in the spectrum of noise; the wide floor leaves their crests as lines.
