@@ -109,7 +109,7 @@ fn voice_beside(look: &OfPropeller, looks: &Looks, config: &EvidenceConfig) -> O
             &searched
         }
     };
-    let voice = search.voice_beside(first.speed_rev_s).filter(|voice| voice.gain_nats >= config.jumps_nats_max)?;
+    let voice = search.voice_beside(first.speed_rev_s, config.jumps_nats_max)?;
     Some(HeardVoice {
         gain_nats: voice.gain_nats,
         rotor_votes_nats: first.votes_nats,

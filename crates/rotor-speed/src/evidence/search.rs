@@ -134,9 +134,9 @@ impl Search {
         path.iter().zip(&self.votes).map(|(&point, votes)| f64::from(votes[point])).collect()
     }
 
-    /// What a voice or an instrument, which jumps, explains beside a rotor near this speed or at one of its octaves and families. `None` without
-    /// such a path.
-    pub(super) fn voice_beside(&self, speed_rev_s: f64) -> Option<Voice> {
+    /// What a voice or an instrument, which jumps, explains beside a rotor near this speed or at one of its octaves and families. `None` where
+    /// that is less than `gain_nats_min` more, in nats a frame.
+    pub(super) fn voice_beside(&self, speed_rev_s: f64, gain_nats_min: f64) -> Option<Voice> {
         let mean_rev_s = |path: &[usize]| mean(&self.grid.speeds_of(path));
         let is_family = |path: &&Vec<usize>| mean_rev_s(path).is_some_and(|of_rev_s| is_family(of_rev_s, speed_rev_s));
         let sum = |path: &[usize]| self.votes_along(path).into_iter().sum::<f64>();
@@ -145,7 +145,7 @@ impl Search {
             let ratio = shift as f64 * GRID_STEP;
             ratio < SLOWER_MAX.ln() || OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < JUMP_MIN)
         };
-        Some(Voice::beside(&self.votes, best, GRID_STEP, is_near))
+        Voice::beside(&self.votes, best, GRID_STEP, gain_nats_min, is_near)
     }
 }
 

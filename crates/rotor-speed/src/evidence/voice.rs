@@ -28,42 +28,42 @@ struct Sums {
 }
 
 impl Sums {
-    /// The most votes, and where: `None` on the path.
-    fn best(&self) -> (f32, Option<usize>) {
+    /// The most votes.
+    fn most_nats(&self) -> f32 {
+        self.elsewhere.iter().copied().fold(self.on_path, f32::max)
+    }
+
+    /// Where the most votes are: `None` on the path.
+    fn best(&self) -> Option<usize> {
         let elsewhere = self.elsewhere.iter().copied().enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
-        match elsewhere {
-            Some((point, nats)) if nats > self.on_path => (nats, Some(point)),
-            _ => (self.on_path, None),
-        }
+        elsewhere.filter(|(_, nats)| *nats > self.on_path).map(|(point, _)| point)
     }
 }
 
 impl Voice {
-    /// The path with the most votes of all that may jump between the rotor's path and other speeds. A speed near that of the rotor, where
-    /// `is_near(shift)` of the shift in points of the grid holds, is that of another rotor or of an octave, and no jump.
+    /// The path with the most votes of all that may jump between the rotor's path and other speeds, where it has at least `gain_nats_min` more than
+    /// the rotor. A speed near that of the rotor, where `is_near(shift)` of the shift in points of the grid holds, is that of another rotor or of an
+    /// octave, and no jump.
     ///
     /// - `votes[frame][speed]`: votes in nats.
     /// - `path`: the rotor's, an index in each frame.
     /// - `grid_step`: step of the logarithm of the speed.
-    pub(super) fn beside(votes: &[Vec<f32>], path: &[usize], grid_step: f64, is_near: impl Fn(isize) -> bool) -> Self {
-        let points = votes.first().map_or(0, Vec::len);
-        let reach = reach_points(1, grid_step);
-        let mut sums = Sums { on_path: 0.0, elsewhere: vec![f32::MIN; points] };
-        let mut all: Vec<Sums> = Vec::with_capacity(votes.len());
-        for (votes, &at) in votes.iter().zip(path) {
-            let (best, _) = sums.best();
-            let mut elsewhere = vec![best - JUMP_NATS; points];
-            for step in 0..=reach.min(points - 1) {
-                reach_by_step(&mut elsewhere, &sums.elsewhere, step, step_nats(step, reach));
-            }
-            for (to, (sum, vote)) in elsewhere.iter_mut().zip(votes).enumerate() {
-                *sum = if is_near(to as isize - at as isize) { f32::MIN } else { *sum + vote - votes[at] };
-            }
-            let on_path = sums.on_path.max(best - JUMP_NATS);
-            all.push(std::mem::replace(&mut sums, Sums { on_path, elsewhere }));
+    pub(super) fn beside(
+        votes: &[Vec<f32>],
+        path: &[usize],
+        grid_step: f64,
+        gain_nats_min: f64,
+        is_near: impl Fn(isize) -> bool,
+    ) -> Option<Self> {
+        // the sums of all frames are large, and few recordings have a voice: only then are they kept
+        let most_nats = sums_along(votes, path, grid_step, &is_near, |_| {}).most_nats();
+        let gain_nats = f64::from(most_nats) / path.len().max(1) as f64;
+        if gain_nats < gain_nats_min {
+            return None;
         }
-        let (nats, end) = sums.best();
-        Self { gain_nats: f64::from(nats) / path.len().max(1) as f64, points: traced(&all, end, reach) }
+        let mut all: Vec<Sums> = Vec::with_capacity(votes.len());
+        let end = sums_along(votes, path, grid_step, &is_near, |sums| all.push(sums));
+        Some(Self { gain_nats, points: traced(&all, end.best(), reach_points(1, grid_step)) })
     }
 
     /// The frames in which it sounds elsewhere, without its lines: nothing is known there.
@@ -80,6 +80,32 @@ impl Voice {
     }
 }
 
+/// The sums behind the last frame. Those before each frame are handed over.
+fn sums_along(
+    votes: &[Vec<f32>],
+    path: &[usize],
+    grid_step: f64,
+    is_near: impl Fn(isize) -> bool,
+    mut on_sums: impl FnMut(Sums),
+) -> Sums {
+    let points = votes.first().map_or(0, Vec::len);
+    let reach = reach_points(1, grid_step);
+    let mut sums = Sums { on_path: 0.0, elsewhere: vec![f32::MIN; points] };
+    for (votes, &at) in votes.iter().zip(path) {
+        let jumped = sums.most_nats() - JUMP_NATS;
+        let mut elsewhere = vec![jumped; points];
+        for step in 0..=reach.min(points - 1) {
+            reach_by_step(&mut elsewhere, &sums.elsewhere, step, step_nats(step, reach));
+        }
+        for (to, (sum, vote)) in elsewhere.iter_mut().zip(votes).enumerate() {
+            *sum = if is_near(to as isize - at as isize) { f32::MIN } else { *sum + vote - votes[at] };
+        }
+        let on_path = sums.on_path.max(jumped);
+        on_sums(std::mem::replace(&mut sums, Sums { on_path, elsewhere }));
+    }
+    sums
+}
+
 /// The states along the best path that ends in one: a point elsewhere, or `None` on the rotor's path.
 ///
 /// - `sums[frame]`: the votes before each frame.
@@ -88,8 +114,7 @@ fn traced(sums: &[Sums], end: Option<usize>, reach: usize) -> Vec<Option<usize>>
     let mut states: Vec<Option<usize>> = Vec::with_capacity(sums.len());
     for before in sums.iter().rev() {
         states.push(state);
-        let (best, best_state) = before.best();
-        let jumped = best - JUMP_NATS;
+        let (best_state, jumped) = (before.best(), before.most_nats() - JUMP_NATS);
         state = match state {
             None => {
                 if before.on_path >= jumped {
@@ -145,7 +170,8 @@ mod tests {
         };
         let path = vec![20; frames];
         let is_near = |shift: isize| shift.abs() < 10;
-        let beside = |votes: &[Vec<f32>]| Voice::beside(votes, &path, step, is_near);
+        let beside =
+            |votes: &[Vec<f32>]| Voice::beside(votes, &path, step, 0.0, is_near).expect("no less than the rotor");
         let rotor = beside(&votes(|_| 20));
         assert_eq!(rotor.gain_nats, 0.0);
         assert!(rotor.points.iter().all(Option::is_none));
