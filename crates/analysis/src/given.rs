@@ -61,7 +61,8 @@ impl GivenFacts {
                     | Warning::SeveralLines { .. }
             )
         };
-        let hint = |warning: &&Warning| match warning {
+        let hint = |warning: &&Warning| {
+            match warning {
             Warning::FitsElsewhere(_) => format!("check {}", self.in_words("and")),
             warning if self.window && is_about_ridge(warning) => {
                 "leave --window-s out: hovertone then chooses a window that fits the tone".to_owned()
@@ -71,10 +72,11 @@ impl GivenFacts {
                 format!("{}, or give a narrower --band", warning.hint())
             }
             Warning::SeveralLines { .. } if self.band => {
-                "the result follows the loudest rotor of each moment; to follow one rotor, give a narrower --band"
+                "hovertone follows the rotor that is loudest at each moment; to follow one rotor, give a narrower --band"
                     .to_owned()
             }
             other => other.hint().to_owned(),
+        }
         };
         warnings.iter().map(hint).collect()
     }

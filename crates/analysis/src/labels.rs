@@ -176,24 +176,23 @@ impl NotTold {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::OtherCount { .. } => {
-                "give the log of the same flight; if it is, correct the number of rotors with --vehicle or --rotors"
+                "give the log of the same flight; if it is the right log, correct the number of rotors with --vehicle or --rotors"
             }
-            Self::TooManyRotors { .. } => "rotors have numbers in place of names, the fastest first",
+            Self::TooManyRotors { .. } => "the rotors get numbers in place of names; rotor 1 is the fastest",
             Self::TooFewTracks { .. } => {
                 "to separate more rotors, place the microphone nearer and record without compression"
             }
             Self::TooManyOffsets { .. } => "give narrower limits in seconds: --log-offset-s LOW:HIGH",
             Self::NoOverlap => {
-                "give the log of the same flight; if it is, give limits that contain the offset of its clock: --log-offset-s LOW:HIGH"
+                "give the log of the same flight; if it is the right log, give limits that contain the offset of its clock: --log-offset-s LOW:HIGH"
             }
             Self::NothingInCommon { .. } => {
-                "check that the log is of the same flight, that --log-offset-s contains the offset of its clock, and the direction of its \
-                axes (--log-axes)"
+                "check that the log is of the same flight; check the limits of --log-offset-s and the direction of the axes (--log-axes)"
             }
             Self::OffsetAtLimit { .. } => "give wider limits in seconds: --log-offset-s LOW:HIGH",
             Self::NoStart => {
-                "--spin-up needs a recording that begins before the motors start, one after the other and a second or more apart; for this \
-                 recording, leave it out, or give a log of the flight with --log"
+                "for --spin-up, start the recording first; then start the motors one after the other, a second or more apart; for this \
+                 recording, leave --spin-up out, or give a log of the flight with --log"
             }
             Self::StartedTogether { .. } => "start one motor after the other, a second or more apart",
             Self::NotFollowed { .. } => {
@@ -201,7 +200,7 @@ impl NotTold {
             }
             Self::OtherSpeedBefore { .. } => "bring each motor straight to the speed of the hover, without idling",
             Self::RotorsTooClose { .. } => "give a log of the flight with --log",
-            Self::SpinUpTooLong { .. } => "leave out with --from what comes before the motors start",
+            Self::SpinUpTooLong { .. } => "with --from, begin shortly before the motors start",
             Self::SeveralFit { .. } => {
                 "record a longer hover with small rolls and pitches: they make the speeds of the rotors differ"
             }
@@ -211,12 +210,12 @@ impl NotTold {
             Self::OtherPlaces { .. } => "give the place of each rotor",
             Self::NothingHeard { .. } => "check that this channel is not silent, or record a longer hover",
             Self::OtherArray { .. } => {
-                "check the positions, their sequence, the axes (x forward, y left, z up), and the uncertainty of the positions \
-                (position_std_m)"
+                "check the positions of the microphones, their sequence, and the axes (x forward, y left, z up); if all are right, give a \
+                larger position_std_m, which is the uncertainty of the positions"
             }
             Self::SeveralPlacesFit { .. } => {
-                "place the microphones nearer, and not symmetrically to the vehicle; or add microphones; or measure their positions better \
-                (position_std_m)"
+                "place the microphones nearer, and not symmetrically to the vehicle; or add microphones; or measure their positions better, and \
+                give a smaller position_std_m"
             }
         }
     }
@@ -232,13 +231,13 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors are too many to name: the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{} separated, and {needed} are needed", rotors_are(*tracks))
+                write!(f, "{} separated, but {needed} are needed", rotors_are(*tracks))
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(
                     f,
-                    "the offset between the clocks of log and recording may be anything from {low_s:.0} to {high_s:.0} s: these are \
-                too many to try"
+                    "the clocks of log and recording may differ by anything from {low_s:.0} to {high_s:.0} s: this range is too wide to \
+                try all of it"
                 )
             }
             Self::NoOverlap => f.write_str("the log and the hover share too little time"),
@@ -249,7 +248,7 @@ impl fmt::Display for NotTold {
                 )
             }
             Self::OffsetAtLimit { offset_s } => {
-                write!(f, "the log fits best at an offset of {offset_s:.2} s, which is a limit of the search")
+                write!(f, "the log fits best at an offset of {offset_s:.2} s, the edge of the offsets that were tried")
             }
             Self::NoStart => f.write_str(
                 "--spin-up changes nothing: the hover begins with the recording, and no motor is heard to start",
@@ -258,7 +257,7 @@ impl fmt::Display for NotTold {
                 write!(f, "two rotors start within {:.1} s of each other", apart_s.max(0.1))
             }
             Self::NotFollowed { tracks } => {
-                write!(f, "for {tracks} of the rotors, the sound cannot be followed back from the hover to the start")
+                write!(f, "{tracks} of the rotors cannot be followed from their start to the hover")
             }
             Self::OtherSpeedBefore { speed_rev_s } => {
                 write!(f, "before a rotor reaches the speed of the hover, something turns at {speed_rev_s:.1} rev/s")
@@ -272,20 +271,20 @@ impl fmt::Display for NotTold {
             Self::SpinUpTooLong { before_hover_s } => {
                 write!(
                     f,
-                    "the hover begins {before_hover_s:.0} s after the start of the recording: over so long a time, the rotors cannot be \
-                    followed back to their starts"
+                    "the hover begins {before_hover_s:.0} s after the start of the recording: this is too long to follow the rotors from \
+                    their starts"
                 )
             }
-            Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors, several names fit the log"),
+            Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors, several motors of the log fit"),
             Self::OtherChannels { channels, microphones } => {
                 write!(
                     f,
-                    "channels of the recording: {channels}; microphones with a position: {microphones}. The two numbers must be \
+                    "the recording has {channels} channels, but {microphones} microphones have a position: the two numbers must be \
                 equal"
                 )
             }
             Self::OtherPlaces { tracks, places } => {
-                write!(f, "rotors that were separated: {tracks}; rotors with a position: {places}")
+                write!(f, "{tracks} rotors were separated, but {places} have a position: both numbers must be equal")
             }
             Self::NothingHeard { microphone } => {
                 write!(f, "microphone {microphone} does not hear the rotors for long enough")

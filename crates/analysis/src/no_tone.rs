@@ -117,8 +117,9 @@ impl fmt::Display for NoTone {
             }
             Self::MainsHum { mains_hz } => write!(
                 f,
-                "only tones at multiples of {mains_hz:.2} Hz are heard, and they never change: they are mains hum, or a rotor that turns \
-                as steadily; if it may be a rotor, record it at another throttle; if not, place the microphone nearer to the rotors"
+                "only tones at multiples of {mains_hz:.2} Hz are heard, and they never change: this is mains hum (from the power supply), \
+                or a rotor that turns as steadily; if it may be a rotor, record it at another throttle; if not, place the microphone nearer \
+                to the rotors"
             ),
             Self::NotHeld { tone_hz, held_s } => write!(
                 f,
@@ -141,7 +142,11 @@ mod tests {
     #[test]
     fn a_steady_rotor_at_the_frequency_of_the_mains_is_not_said_to_be_hum_alone() {
         let said = NoTone::MainsHum { mains_hz: 60.0 }.to_string();
-        assert!(said.contains("60.00 Hz") && said.contains("mains hum, or a rotor that turns as steadily"), "{said}");
+        assert!(
+            said.contains("60.00 Hz")
+                && said.contains("mains hum (from the power supply), or a rotor that turns as steadily"),
+            "{said}"
+        );
         assert!(said.contains("record it at another throttle"), "{said}");
     }
 

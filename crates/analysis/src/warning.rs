@@ -136,7 +136,7 @@ impl Warning {
     /// Advice to the user, where no band was given; for given facts see [`GivenFacts::hints`](crate::GivenFacts::hints).
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::RidgeOnBandEdge { .. } => "check the blades or the gear",
+            Self::RidgeOnBandEdge { .. } => "the true tone may lie outside: check the number of blades or the gear",
             Self::HarmonicLeftOut { harmonic: 1, .. } => {
                 "the speed comes from the other harmonics; check the blades or the gear"
             }
@@ -161,7 +161,7 @@ impl Warning {
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
-                "give the number of rotors with --rotors: for one rotor alone, the ± is smaller; to separate several, place the microphone \
+                "give the number of rotors with --rotors: if only one turns, the ± becomes smaller; to separate several, place the microphone \
                 nearer and record without compression"
             }
             Self::RotorsNotApart { has_mean: false, .. } => {
@@ -169,17 +169,17 @@ impl Warning {
                 cannot be separated"
             }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all rotors, and its ± includes the rotors that were not separated; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
+                "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
             }
             Self::RotorCountUnknown { .. } => {
-                "give the number of rotors with --rotors: for one rotor alone, the ± is smaller"
+                "give the number of rotors with --rotors: if only one turns, the ± becomes smaller"
             }
             Self::OtherRotorsHeard { .. } => {
                 "if more rotors turn, give their number with --rotors; if not, record away from other machines"
             }
             Self::FitsElsewhere(_) => "check the given facts",
             Self::SeveralLines { .. } => {
-                "the result follows the loudest rotor of each moment; to follow one rotor, give --band LOW:HIGH around its tone"
+                "hovertone follows the rotor that is loudest at each moment; to follow one rotor, give --band LOW:HIGH around its tone"
             }
         }
     }
@@ -191,7 +191,7 @@ impl fmt::Display for Warning {
             Self::RidgeOnBandEdge { harmonic, frames_share } => {
                 write!(
                     f,
-                    "harmonic {harmonic} of the tone is at the edge of the searched band for {:.0} % of the time",
+                    "for {:.0} % of the time, harmonic {harmonic} of the tone lies at the edge of the band that is searched",
                     100.0 * frames_share
                 )
             }
@@ -206,7 +206,7 @@ impl fmt::Display for Warning {
             Self::FewHarmonicsAgree { used, of } => {
                 if 2 * used < *of {
                     let show = if *used == 1 { "shows" } else { "show" };
-                    write!(f, "only {used} of {of} harmonics {show} the same speed")
+                    write!(f, "only {used} of {of} harmonics (multiples of the tone) {show} the same speed")
                 } else {
                     f.write_str("the tone itself shows another speed than its harmonics")
                 }
@@ -217,8 +217,8 @@ impl fmt::Display for Warning {
             Self::HoversDiffer { slowest_rev_s, fastest_rev_s } => {
                 write!(
                     f,
-                    "the rotors turn at different speeds in different parts of the hover, {slowest_rev_s:.1} to {fastest_rev_s:.1} rev/s: \
-                    the result is the mean"
+                    "the rotor speed differs between parts of the hover, from {slowest_rev_s:.1} to {fastest_rev_s:.1} rev/s: the result is the \
+                    mean of these parts"
                 )
             }
             Self::HoverShorterThanSample { hover_s, length_s } => {
@@ -247,15 +247,15 @@ impl fmt::Display for Warning {
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not given, and the tone may come from one of several. So the ± assumes that the speeds of the \
-                rotors differ by {:.1} % (standard deviation)",
+                "the number of rotors is not given, and the tone may come from one of several. So the ± is larger: it assumes that the \
+                speeds of the rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
-                "the sound contradicts the given facts: by the sound alone, the rotor has {blades} blades and turns at {speed_rev_s:.1} \
-                rev/s (odds of more than 99 to 1)"
+                "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is more than 99 times as \
+                probable"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(
@@ -278,10 +278,12 @@ fn others_heard_text(expected: u32) -> String {
 /// How many rotors were separated, and what their speed is then. `rotors` are all.
 fn not_apart_text(resolved: usize, rotors: &str, has_mean: bool, spread_share: f64) -> String {
     match (resolved, has_mean) {
-        (0, true) => format!("the {rotors} could not be separated: they are heard as a group"),
+        (0, true) => {
+            format!("the {rotors} could not be separated: they are heard as a group, which has one mean speed")
+        }
         (0, false) => format!(
-            "the {rotors} could not be separated, so one tone is used for all. It may come from one rotor alone, and the ± assumes that the \
-             speeds of the rotors differ by {:.1} % (standard deviation)",
+            "the {rotors} could not be separated, so one tone is used for all. It may be the tone of one rotor alone. The ± allows for this: \
+             it assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
             100.0 * spread_share
         ),
         _ => format!("only {resolved} of the {rotors} could be separated"),
@@ -314,7 +316,7 @@ mod tests {
             Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: false, is_assumed: false, spread_share: 0.0058 };
         let unknown = Warning::RotorCountUnknown { spread_share: 0.0058 };
         for (warning, why, what_to_do) in [
-            (&one_tone, "may come from one rotor", "get a smaller ±"),
+            (&one_tone, "may be the tone of one rotor", "get a smaller ±"),
             (&unknown, "may come from one of several", "--rotors"),
         ] {
             let text = warning.to_string();

@@ -8,7 +8,7 @@ use std::path::Path;
 const EXPERIMENT: &str = "EXPERIMENT.toml";
 
 const NAMED_TWICE: &str = "each names the rotors by itself: leave one of them out";
-const WITHOUT_AIR: &str = "a plan does not use the air: leave it out, and give it with the tables";
+const WITHOUT_AIR: &str = "a plan does not use the air: leave it out; give it when you fit the tables";
 const PRINTED: &str = "--json prints the answer as JSON, and nothing else: leave one of them out";
 /// Two arguments, and why only one of them has a meaning.
 const KNOWN: [([&str; 2], &str); 18] = [
@@ -28,8 +28,8 @@ const KNOWN: [([&str; 2], &str); 18] = [
     (["--spin-up", "--log"], NAMED_TWICE),
     (["--microphones", "--log"], NAMED_TWICE),
     (["--microphones", "--spin-up"], NAMED_TWICE),
-    (["--check", "--json"], "--check analyses nothing, so that there are no results to print: leave one of them out"),
-    (["--check", "--verbose"], "--check analyses nothing, so that there are no tables to print: leave one of them out"),
+    (["--check", "--json"], "--check analyses nothing, so there are no results to print: leave one of them out"),
+    (["--check", "--verbose"], "--check analyses nothing, so there are no tables to print: leave one of them out"),
     (["--signals", "--signal"], "--signals lists the names of all, --signal writes one: leave one of them out"),
     (["--signals", "--json"], "--json has the names of all signals already: leave --signals out"),
     (["--output", "COMMAND"], "-o writes the pages of all commands, COMMAND prints one: leave one of them out"),
@@ -38,9 +38,7 @@ const KNOWN: [([&str; 2], &str); 18] = [
 /// That two arguments cannot be used together. A recording apart from its mass takes the place of an experiment file.
 pub(crate) fn conflict_in_words(one: &str, other: &str, words: &[OsString]) -> String {
     match [one, other].contains(&EXPERIMENT) && !has_experiment(words) {
-        true if has_mass(words) => {
-            "a file stands apart from its mass, so that it counts as the experiment file".to_owned()
-        }
+        true if has_mass(words) => "a file that does not stand behind a mass counts as the experiment file".to_owned(),
         true => "the mass that hovers in the recording is missing".to_owned(),
         false => format!("{one} cannot be used with {other}"),
     }

@@ -143,24 +143,37 @@ fn change(
     terminal.data(&difference(model, place, &updated.changes))?;
     terminal.flush()?;
     terminal.say(&written(place));
-    if let Some(line_number) = updated.line_with_old_number() {
-        let text = format!("line {line_number} still has a number from before: --into changes no comments");
-        terminal.warning(&Notice::new(text, "correct or remove the comment there"), "");
+    if let Some(notice) = stale_comments(&updated.lines_with_old_number()) {
+        terminal.warning(&notice, "");
     }
     let ratio = rotor.thrust_constant_n_s2 / before.thrust_constant_n_s2;
     if !LIKELY_CHANGE.contains(&ratio) {
-        let text = format!("the constant of the model is {} times as large as before", fixed(ratio, 2));
-        terminal.warning(&Notice::new(text, "are the results and the model of one vehicle, and the units right?"), "");
+        let text = format!("the new constant is {} times the old constant of the model", fixed(ratio, 2));
+        let hint = "check that results and model are of the same vehicle, and that the units are right";
+        terminal.warning(&Notice::new(text, hint), "");
     }
     if let Some((theirs_kg, heard_kg)) =
         before.mass_kg.zip(rotor.mass_kg).filter(|(theirs, heard)| !are_alike(*theirs, *heard))
     {
         let text = format!(
-            "the model weighs {theirs_kg} kg and the heard vehicle {heard_kg} kg: it will hover at another speed"
+            "the model weighs {theirs_kg} kg, but the vehicle that was heard {heard_kg} kg: the model will hover at another speed"
         );
-        terminal.warning(&Notice::new(text, "set the mass of the model, which was not changed"), "");
+        terminal.warning(&Notice::new(text, "set the mass in the model: --into did not change it"), "");
     }
     Ok(Ending::Done)
+}
+
+/// That comments still have the old number; `None` without such lines.
+fn stale_comments(line_numbers: &[usize]) -> Option<Notice> {
+    let (last, others) = line_numbers.split_last()?;
+    let others: Vec<String> = others.iter().map(usize::to_string).collect();
+    let (lines, hint) = match others.as_slice() {
+        [] => (format!("line {last} still has"), "correct or remove the comment there"),
+        others => {
+            (format!("lines {} and {last} still have", others.join(", ")), "correct or remove the comments there")
+        }
+    };
+    Some(Notice::new(format!("{lines} the old number: --into changes no comments"), hint))
 }
 
 /// The failure of a model that cannot be changed.
@@ -224,7 +237,7 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
         if !coefficients.is_plausible {
             let coefficient = coefficients.propeller;
             let what = format!(
-                "diameter_m = {diameter_m} would give the propeller C_T = {coefficient:.2e}, and no propeller has that"
+                "diameter_m = {diameter_m} would give a thrust coefficient C_T of {coefficient:.2e}, and no propeller has that"
             );
             return Err(Failure::usage(what, "check the diameter: from tip to tip, in m or as 8in"));
         }
@@ -240,7 +253,7 @@ fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Resul
         return Ok(());
     }
     let what = format!(
-        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is {arm_m:.2e} m times the thrust constant of one rotor, and propellers have less than {TORQUE_PER_THRUST_M_MAX} m"
+        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is {arm_m:.2e} m times the thrust constant of one rotor, but propellers have less than {TORQUE_PER_THRUST_M_MAX} m"
     );
     Err(Failure::usage(what, "give C_τ in torque = C_τ ω², in N m/(rad/s)²: of small propellers it is 1e-9 to 1e-6"))
 }

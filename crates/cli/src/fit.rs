@@ -92,11 +92,11 @@ fn half_given(air: &AirArguments, place: &PlaceArguments) -> Option<Notice> {
     let of_air = air.temperature_c.or(air.pressure_hpa).or(air.humidity_percent);
     match (air.diameter_m, of_air.or(place.height_m)) {
         (Some(_), None) => Some(Notice::new(
-            "C_T is not computed: it needs the density of the air too",
+            "the thrust coefficient C_T is not computed: it needs the density of the air too",
             "also give --temperature-c and --pressure-hpa, or --height-m",
         )),
         (None, Some(_)) if of_air.is_some() => Some(Notice::new(
-            "C_T is not computed: it needs the diameter of the propeller too",
+            "the thrust coefficient C_T is not computed: it needs the diameter of the propeller too",
             "also give --diameter-m",
         )),
         _ => None,
@@ -253,7 +253,7 @@ fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Notice> {
     let (least, most) = (*THRUST_COEFFICIENT.start(), *THRUST_COEFFICIENT.end());
     let is_far = coefficient < least / FAR_OFF_FACTOR || coefficient > most * FAR_OFF_FACTOR;
     let text = format!(
-        "with this diameter C_T would be {} in air of {AIR_KG_M3} kg/m³, and propellers have {least} to {most}",
+        "with this diameter, the thrust coefficient C_T would be {} in air of {AIR_KG_M3} kg/m³, but propellers have {least} to {most}",
         significant(coefficient, 2)
     );
     let hint = "check the units of the forces and of the speeds (rpm, rev/s or rad/s), the diameter, and --rotors";
@@ -263,7 +263,10 @@ fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Notice> {
 /// Says that a propeller with such a constant would be larger than any multirotor's.
 fn too_large_notice(per_rotor: Estimate) -> Option<Notice> {
     let diameter_m = least_diameter_m(per_rotor.value);
-    let text = format!("a propeller with this C_f would have a diameter of {} m or more", significant(diameter_m, 2));
+    let text = format!(
+        "a propeller with this thrust constant would have a diameter of {} m or more",
+        significant(diameter_m, 2)
+    );
     let hint = "check whether the columns of speed and force are exchanged, and check their units";
     (diameter_m > DIAMETER_M_MAX).then(|| Notice::new(text, hint))
 }
@@ -272,8 +275,9 @@ fn too_large_notice(per_rotor: Estimate) -> Option<Notice> {
 fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_count_given: bool) -> Option<Notice> {
     let fastest_rad_s = group.rows.iter().map(|row| row.speed_rad_s).fold(0.0, f64::max);
     let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
-    let text =
-        format!("no propeller has such a thrust at such a speed: its tips would be at Mach {tip_mach:.2} or faster");
+    let text = format!(
+        "no propeller has this thrust at this speed: its tips would move at Mach {tip_mach:.2} (times the speed of sound) or faster"
+    );
     let rotors = if is_count_given { "--rotors" } else { "give the number of rotors with --rotors" };
     let hint = format!("check the units of the forces and of the speeds, and {rotors}");
     (tip_mach > TIP_MACH_MAX).then(|| Notice::new(text, hint))

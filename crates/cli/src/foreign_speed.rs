@@ -3,7 +3,7 @@
 use crate::args::ToneArguments;
 use hovertone::speed::{NoTone, OtherRotor, Outcome};
 use hovertone_exchange::HeardTone;
-use hovertone_report::{Contradicted, Notice, SpeedRecord};
+use hovertone_report::{Contradicted, Notice, NoticeKind, SpeedRecord};
 use hovertone_vehicle::RotorSpeed;
 
 /// What to do where a recording seems to be of another vehicle than the constant.
@@ -59,7 +59,7 @@ pub(crate) fn advise_by_constant(record: &mut SpeedRecord, heard: &HeardTone, ty
         None => {}
     }
     if record.contradiction() == Some(Contradicted::ByAnotherRotor) {
-        let is_advice = |notice: &&mut Notice| notice.text.contains("contradicts the given facts");
+        let is_advice = |notice: &&mut Notice| notice.kind == NoticeKind::AnotherRotorFits;
         record.notices.iter_mut().filter(is_advice).for_each(|notice| OTHER_VEHICLE.clone_into(&mut notice.hint));
     }
 }

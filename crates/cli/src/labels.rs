@@ -146,7 +146,7 @@ fn axes_of(of_format: Option<RateAxes>, said: Option<BodyAxes>) -> Result<Option
 fn contradicted(of_format: &str, said: &str) -> Failure {
     Failure::usage(
         format!(
-            "the body rates of this log have x forward, {of_format} by its format, and --log-axes {said} says otherwise"
+            "by the format of this log, the axes of its body rates are x forward, {of_format}; --log-axes {said} contradicts this"
         ),
         "leave --log-axes out: it is only for CSV",
     )

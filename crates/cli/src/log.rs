@@ -86,7 +86,8 @@ fn hint_of(error: &LogError) -> String {
         return format!("{}{}{}", error.hint(), flag_of_columns(), example_of_columns(columns));
     }
     let meant = match error {
-        LogError::NoSuchSignal { name, tables } => nearest(name, tables.split(", ")),
+        LogError::NoSuchSignal { meant: Some(meant), .. } => return format!("write --signal {}", quoted(meant)),
+        LogError::NoSuchSignal { name, tables, .. } => nearest(name, tables.split(", ")),
         _ => None,
     };
     meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
@@ -101,23 +102,31 @@ fn command_word() -> String {
     typed_words().get(1).and_then(|word| word.to_str().map(str::to_owned)).unwrap_or_default()
 }
 
-/// The whole command that was typed, with names for the first two columns; empty where the command has no such names, or the log no two columns.
+/// Beginnings of headers of a time, in some languages.
+const TIMES: [&str; 7] = ["time", "zeit", "temps", "tiempo", "tempo", "tijd", "sec"];
+/// Parts of headers of a rotor's speed, in some languages.
+const SPEEDS: [&str; 11] =
+    ["rpm", "drehzahl", "umdreh", "u/min", "1/min", "upm", "speed", "vitesse", "velocidad", "giri", "toeren"];
+
+/// The whole command that was typed, with names for the time and the speed among the columns; empty where the command has no such names, or where no
+/// column is a time.
 fn example_of_columns(columns: &str) -> String {
-    let mut headers = columns.split(", ");
-    let command = command_word();
-    let (Some(time), Some(other)) = (headers.next(), headers.next()) else { return String::new() };
-    // a speed is no time
-    let is_speed = ["rpm", "rad_s", "rev_s"].iter().any(|unit| time.ends_with(unit));
-    if is_speed || !WITH_COLUMNS.contains(&command.as_str()) {
-        return String::new();
-    }
+    let headers: Vec<&str> = columns.split(", ").collect();
+    let is_any = |header: &str, names: &[&str]| names.iter().any(|name| header.to_lowercase().contains(name));
+    let is_speed = |header: &str| is_any(header, &SPEEDS) || ["rad_s", "rev_s"].iter().any(|it| header.ends_with(it));
+    let named = headers.iter().find(|header| is_any(header, &TIMES));
+    // the time is the first column of most logs
+    let time = named.or(headers.first()).copied().filter(|time| headers.len() > 1 && !is_speed(time));
+    let Some(time) = time.filter(|_| WITH_COLUMNS.contains(&command_word().as_str())) else { return String::new() };
     let column = |header: &str, name: &str| format!("--column {}", quoted(&format!("{header}={name}")));
-    format!(
-        ". If \"{time}\" is the time in seconds and \"{other}\" the speed of a rotor in rpm: {} {} {}",
-        typed_command(),
-        column(time, "time_s"),
-        column(other, "rotor1_rpm")
-    )
+    let command = format!("{} {}", typed_command(), column(time, "time_s"));
+    match headers.iter().find(|header| **header != time && is_speed(header)) {
+        Some(speed) => format!(
+            ". If \"{time}\" is the time in seconds and \"{speed}\" the speed of a rotor in rpm: {command} {}",
+            column(speed, "rotor1_rpm")
+        ),
+        None => format!(". If \"{time}\" is the time in seconds: {command}"),
+    }
 }
 
 /// The failure of a recording in the place of a log.

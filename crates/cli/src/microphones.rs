@@ -94,7 +94,7 @@ pub(crate) fn resolve(
     })?;
     if array.rotor_count() != rotors as usize {
         let what = format!(
-            "rotors that turn: {rotors}; rotors with a place: {}. The two numbers must be equal",
+            "{rotors} rotors turn, but {} rotors have a place: the two numbers must be equal",
             array.rotor_count()
         );
         return Err(refused(what, "give their number with --rotors, and the place of each"));
@@ -126,7 +126,7 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
     }
     Err(Failure::Usage {
         what: format!(
-            "channels of the recording: {channels}; microphones with a position: {microphones}. The two numbers must be equal"
+            "the recording has {channels} channels, but {microphones} microphones have a position: the two numbers must be equal"
         ),
         hint: "give one [[microphone]] for each channel, in their order; --audio-track N chooses another track"
             .to_owned(),

@@ -224,7 +224,7 @@ fn reason_of(error: &clap::Error) -> String {
         Some(source) if source.is::<ParseFloatError>() => "a number is needed, such as 0.25".to_owned(),
         Some(source) if source.is::<ParseIntError>() => "a whole number, 0 or more, is needed".to_owned(),
         Some(source) => source.to_string(),
-        None => "this value has no meaning here".to_owned(),
+        None => "this value cannot be used here".to_owned(),
     }
 }
 

@@ -158,17 +158,19 @@ impl Plan<'_> {
         let is_part = self.arguments.from.or(self.arguments.to).is_some();
         let advice = if is_part { "choose a longer part with --from and --to" } else { "record a longer run" };
         format!(
-            "no speed is held for a second, or the rotor is too faint to be followed from moment to moment; {advice}, in which each speed is \
-             held for a second or longer, or place the microphone nearer"
+            "no speed is held for a second, or the rotor is too faint; {advice}, in which each speed is held for a second or longer, or place the \
+             microphone nearer"
         )
     }
 
     /// That the steps of commands and sound agree at another offset than the given one.
     fn misaligned(&self, other_offset_s: Option<f64>) -> Option<Notice> {
         let (given_s, other_s) = self.arguments.offset.zip(other_offset_s)?;
-        let what =
-            format!("with --offset {given_s}, the commands do not step when the speed does, so they are not used");
-        let hint = format!("the steps agree at an offset of about {other_s:.2} s: leave --offset out, or correct it");
+        let what = format!(
+            "with --offset {given_s}, commands and speed do not change at the same times, so the commands are not used"
+        );
+        let hint =
+            format!("they change at the same times with --offset {other_s:.2}: leave --offset out, or correct it");
         Some(Notice::new(what, hint))
     }
 }

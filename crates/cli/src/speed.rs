@@ -45,7 +45,13 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
     terminal.flush()?;
     say_assumed_number(arguments, &records, terminal);
     if let Some(path) = plan.track {
-        plan.outputs.write(&path, track_csv(&records).map_err(Failure::internal)?)?;
+        let track = track_csv(&records).map_err(Failure::internal)?;
+        // a header alone is no track
+        if track.lines().nth(1).is_some() {
+            plan.outputs.write(&path, track)?;
+        } else {
+            terminal.say("--track wrote no file: no rotor was heard, so there is no speed over time");
+        }
     }
     Ok(ending_of(&records))
 }

@@ -12,10 +12,14 @@ pub(crate) fn names_of(
     let refused = |what: String| {
         let known = vehicle.and_then(Vehicle::flight_parameters).map(|parameters| places(parameters.layout.value));
         let places = known.unwrap_or_else(|| places(Layout::X));
-        Failure::usage(
-            what,
-            format!("name each once, as in --spin-up {} or, by motors, --spin-up 1,2,3,4", places.join(",")),
-        )
+        let numbers = (1..=rotors).map(|number| number.to_string()).collect::<Vec<_>>().join(",");
+        let hint = match rotors as usize == places.len() {
+            true => {
+                format!("name each rotor once, as in --spin-up {} or, by motors, --spin-up {numbers}", places.join(","))
+            }
+            false => format!("for {rotors} rotors, give the numbers of the motors, as in --spin-up {numbers}"),
+        };
+        Failure::usage(what, hint)
     };
     let numbers: Option<Vec<usize>> = typed.iter().map(|name| name.trim().parse().ok()).collect();
     let (all, order) = match numbers {
@@ -42,12 +46,31 @@ pub(crate) fn names_of(
     let mut sorted = order.clone();
     sorted.sort_unstable();
     if sorted != (1..=all.len()).collect::<Vec<usize>>() || all.len() != rotors as usize {
-        return Err(refused(format!(
-            "--spin-up must name each of the {rotors} rotors exactly once; it names {}",
-            typed.join(", ")
-        )));
+        return Err(refused(fault_of(&order, &all, rotors)));
     }
     Ok(order.into_iter().map(|number| (number, all[number - 1].clone())).collect())
+}
+
+/// What is wrong with numbers that do not name each of the rotors exactly once.
+fn fault_of(order: &[usize], all: &[String], rotors: u32) -> String {
+    let twice = order.iter().enumerate().find(|(at, number)| order[..*at].contains(number));
+    let missing: Vec<&str> =
+        (1..).zip(all).filter(|(number, _)| !order.contains(number)).map(|(_, name)| name.as_str()).collect();
+    if let Some((_, number)) = twice {
+        let name = number.checked_sub(1).and_then(|index| all.get(index));
+        let name = name.map_or_else(|| number.to_string(), String::clone);
+        return format!("--spin-up must name each of the {rotors} rotors exactly once; it names {name} twice");
+    }
+    if let Some(number) = order.iter().find(|number| !(1..=all.len()).contains(number)) {
+        return format!("--spin-up names motor {number}, but the motors of {rotors} rotors are 1 to {rotors}");
+    }
+    if all.len() == rotors as usize && order.len() < all.len() {
+        return format!(
+            "--spin-up must name each of the {rotors} rotors exactly once; it does not name {}",
+            missing.join(" and ")
+        );
+    }
+    format!("--spin-up names {} rotors, but {rotors} rotors turn (by --rotors or --vehicle)", order.len())
 }
 
 /// Names of the rotors of a frame as on the command line.
@@ -74,6 +97,21 @@ mod tests {
             names("3,1,2", 3),
             [(3, "motor 3".to_owned()), (1, "motor 1".to_owned()), (2, "motor 2".to_owned())]
         );
+    }
+
+    #[test]
+    fn counts_that_contradict_each_other_are_named() {
+        let what = |text: &str, rotors| match names_of(&typed(text), None, rotors) {
+            Err(Failure::Usage { what, hint, .. }) => format!("{what}: {hint}"),
+            other => panic!("{other:?}"),
+        };
+        let six = what("front-right,rear-left,front-left,rear-right", 6);
+        assert!(six.contains("names 4 rotors, but 6 rotors turn") && six.ends_with("--spin-up 1,2,3,4,5,6"), "{six}");
+        assert!(what("1,2,3", 4).contains("does not name motor 4"));
+        assert!(what("1,2,3,3", 4).contains("it names motor 3 twice"));
+        assert!(what("0,1,2,3", 4).contains("names motor 0, but the motors of 4 rotors are 1 to 4"));
+        assert!(what("1,2,3,4", 3).contains("names motor 4, but the motors of 3 rotors are 1 to 3"));
+        assert!(what("left,front,right", 4).contains("does not name rear"));
     }
 
     #[test]

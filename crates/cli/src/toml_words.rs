@@ -121,10 +121,16 @@ fn syntax(message: &str) -> Option<PlainFault> {
     if is("string values must be quoted") {
         return Some(PlainFault::new("has text without quotes", "write it as \"text\""));
     }
+    if message.starts_with("extra `") && message.ends_with("expected nothing") {
+        return Some(PlainFault::new("has more than one = on this line", "write one key and one value on each line"));
+    }
     if let Some((what, needed)) = message.split_once(", expected ").filter(|(_, needed)| !needed.contains(", ")) {
         return Some(PlainFault::new(
             format!("has a fault: {what}"),
-            format!("{} is needed here", needed.replace('`', "")),
+            match needed {
+                "nothing" => "remove it".to_owned(),
+                needed => format!("{} is needed here", needed.replace('`', "")),
+            },
         ));
     }
     let is_more = is("unexpected key or value, expected newline");
@@ -162,6 +168,7 @@ mod tests {
             ("duplicate key", "has this name twice"),
             ("missing escaped value, expected `b`, `e`, `f`", "has a backslash in text, where it has another meaning"),
             ("unclosed table, expected `]`", "has a name in brackets that does not end"),
+            ("extra `=`, expected nothing", "has more than one = on this line"),
             (
                 "an order is a number above 0 without quotes, or \"auto\"",
                 "has a fault: an order is a number above 0 without quotes, or \"auto\"",

@@ -14,7 +14,9 @@ use crate::terminal::Terminal;
 use hovertone::rotors::{LoggedSpeeds, verification_from_log};
 use hovertone::speed::TrackPoint;
 use hovertone_figures::{DOTS_PER_INCH, verification_figure};
-use hovertone_report::{Notice, SpeedRecord, VerificationRecord, verification_json, verification_text};
+use hovertone_report::{
+    Notice, SpeedRecord, VerificationRecord, small_plus_minus, verification_json, verification_text,
+};
 use std::path::Path;
 
 /// Hears the recording and compares it with the log.
@@ -53,6 +55,9 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let verification = verification_from_log(&tracks_of(record), logged, offsets_s)
         .map_err(|reason| Failure::failed(reason.to_string(), reason.hint(), log))?;
     let passes = verification.passes();
+    if let Some(notice) = small_plus_minus(&verification) {
+        terminal.warning(&notice, "");
+    }
     let told = VerificationRecord { file: record.file.clone(), log: log.display().to_string(), verification };
     if arguments.json {
         terminal.data(&verification_json(&told).map_err(Failure::internal)?)?;

@@ -382,7 +382,9 @@ fn check_order(said: Order, heard: &HeardTone) -> Result<(), Failure> {
     if lines == heard.order || is_blade_pass {
         return Ok(());
     }
-    let what =
-        format!("the constant was measured with the tone of order {}, but the arguments mean {said}", heard.order);
+    let what = format!(
+        "the constant was measured with the tone of order {} (lines per turn), but the arguments mean {said}",
+        heard.order
+    );
     Err(Failure::usage(what, "leave --order, --blades and --gear out: the results have them"))
 }

@@ -11,6 +11,10 @@ use std::f64::consts::TAU;
 
 /// Fewest speeds: a straight line through two points has no scatter. *Numeric.*
 const LEVELS_MIN: usize = 3;
+/// Smallest ratio of the largest to the smallest ω²: the line from ω² to the torque has no slope where all speeds are one. *Numeric.*
+const SQUARE_RATIO_MIN: f64 = 1.01;
+/// A scatter below this share of the torque is that of rounding in sums. *Numeric.*
+const EQUAL_SHARE: f64 = 1e-12;
 
 /// Torque on one rotor over time, on the clock of its speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +46,10 @@ pub enum BenchTorque {
         /// How many.
         level_count: usize,
     },
+    /// All commands hold the same speed.
+    OneSpeed,
+    /// The torque never changes while a speed is held, so nothing shows its uncertainty.
+    SteadyTorque,
 }
 
 impl BenchTorque {
@@ -50,15 +58,22 @@ impl BenchTorque {
         match self {
             Self::Told { .. } => None,
             Self::NoTorque => Some(
-                "this log has no torque; log the torque of a test stand, or fly yaw manoeuvres and use hovertone greybox"
+                "this log has no torque; log the torque of a test stand, or fly yaw manoeuvres and use `hovertone greybox`"
                     .to_owned(),
             ),
             Self::SeveralMotors => {
-                Some("the torque is of several motors together; let one motor turn alone".to_owned())
+                Some("several motors turn, and the torque is of all together; let one motor turn alone".to_owned())
             }
             Self::FewLevels { level_count } => Some(format!(
-                "{LEVELS_MIN} speeds or more must be held for a second each, and the commands of this log hold {level_count}"
+                "the commands of this log hold {level_count} speeds for a second each, and {LEVELS_MIN} or more are needed; hold more speeds"
             )),
+            Self::OneSpeed => {
+                Some("all commands of this log hold the same speed; hold different speeds for a second each".to_owned())
+            }
+            Self::SteadyTorque => Some(
+                "the torque does not change at all while a speed is held, so its uncertainty is not known; log the torque as it is measured"
+                    .to_owned(),
+            ),
         }
     }
 }
@@ -80,8 +95,14 @@ pub(crate) fn torque_of_levels(series: &MotorSeries, torque: &TorqueSeries, held
     }
     // a level whose rows are all equal is not exact
     let std_min = levels.iter().map(|level| level.torque_std_n_m).sum::<f64>() / (10.0 * level_count as f64);
-    if std_min <= 0.0 {
-        return BenchTorque::FewLevels { level_count: 0 };
+    let largest_n_m = levels.iter().map(|level| level.torque_n_m.abs()).fold(0.0, f64::max);
+    if std_min <= EQUAL_SHARE * largest_n_m {
+        return BenchTorque::SteadyTorque;
+    }
+    let squares = || levels.iter().map(|level| level.speed_square_rad2_s2);
+    let (least, most) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
+    if most < SQUARE_RATIO_MIN * least {
+        return BenchTorque::OneSpeed;
     }
     let point = |level: &Level| WeightedPoint {
         x: level.speed_square_rad2_s2,
@@ -150,5 +171,24 @@ mod tests {
     #[test]
     fn two_speeds_tell_no_scatter() {
         assert_eq!(told(2, 7.7e-9, 0.0), BenchTorque::FewLevels { level_count: 2 });
+    }
+
+    #[test]
+    fn one_speed_and_a_torque_without_noise_tell_no_constant() {
+        let time_s: Vec<f64> = (0..300).map(|row| 0.02 * f64::from(row)).collect();
+        let held: Vec<HeldCommand> =
+            [0.0, 2.0, 4.0].map(|from_s| HeldCommand { command: 1000.0 + from_s, from_s, to_s: from_s + 2.0 }).into();
+        let told = |speed_rev_s: &[f64], torque_n_m: &[f64]| {
+            let series = MotorSeries { time_s: &time_s, speed_rev_s };
+            torque_of_levels(&series, &TorqueSeries { time_s: &time_s, torque_n_m }, &held)
+        };
+        let noisy: Vec<f64> = (0..300).map(|row| 0.01 + 1e-4 * f64::from(row * 7919 % 100)).collect();
+        let steps: Vec<f64> = (0..300).map(|row| 100.0 + 20.0 * f64::from(row / 100)).collect();
+        assert_eq!(told(&[100.0; 300], &noisy), BenchTorque::OneSpeed);
+        assert_eq!(told(&steps, &[0.01; 300]), BenchTorque::SteadyTorque);
+        assert!(matches!(told(&steps, &noisy), BenchTorque::Told { .. }));
+        for untold in [BenchTorque::OneSpeed, BenchTorque::SteadyTorque] {
+            assert!(untold.reason().is_some_and(|reason| !reason.contains('0')), "{untold:?}");
+        }
     }
 }

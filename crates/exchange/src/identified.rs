@@ -122,7 +122,7 @@ pub enum ResultsError {
         names: String,
     },
     /// A group is wanted, and there are none.
-    #[error("these results have no groups, so \"{name}\" is none of them")]
+    #[error("these results have no groups, so there is no group \"{name}\"")]
     NoGroups {
         /// The wanted name.
         name: String,

@@ -1,7 +1,8 @@
 //! Which octave: the beliefs of all reviews of the rotors that are followed, together.
 //!
 //! A rotor that is followed keeps its octave. Each review hears other seconds, and tells a belief in each possible speed; the beliefs of the reviews
-//! multiply. A speed that a review does not name may still be the truth: a decision leaves one chance of a hundred to others. Where neither the
+//! multiply. A speed that a review does not name may still be the truth: a decision leaves one chance of a hundred to others. Reviews of the same
+//! lines share their doubts, so doubtful reviews together decide nothing: more than half of the reviews must decide alone. Where neither the
 //! blades nor the diameter are known, the levels of the lines may deceive, and then they do so in all reviews: the belief is the mean of the reviews.
 
 use hovertone_rotor_speed::EvidenceConfig;
@@ -39,6 +40,13 @@ fn is_of_family(a_rev_s: f64, b_rev_s: f64) -> bool {
     FAMILIES.iter().any(|family| (ratio - family.ln()).abs() < FAMILY_LOG_RATIO)
 }
 
+/// A speed for which reviews have decided alone.
+#[derive(Clone, Copy, Debug)]
+struct DecidedAlone {
+    speed_rev_s: f64,
+    reviews: u32,
+}
+
 /// The possible speeds of the followed rotors, most probable first.
 #[derive(Clone, Debug)]
 pub(crate) struct Octave {
@@ -51,6 +59,8 @@ pub(crate) struct Octave {
     may_be_deceived: bool,
     /// Number of reviews of these speeds.
     reviews: u32,
+    /// How many of them decided alone, for each speed.
+    decided_alone: Vec<DecidedAlone>,
 }
 
 impl Octave {
@@ -62,12 +72,14 @@ impl Octave {
             unnamed_belief: (1.0 - evidence.belief_min).max(f64::EPSILON),
             may_be_deceived,
             reviews: 0,
+            decided_alone: Vec::new(),
         }
     }
 
     /// Forgets all reviews.
     pub(crate) fn clear(&mut self) {
         self.speeds.clear();
+        self.decided_alone.clear();
         self.reviews = 0;
     }
 
@@ -79,9 +91,12 @@ impl Octave {
             // other rotors, or the same after a step
             self.speeds = reviewed.to_vec();
             self.reviews = 1;
+            self.decided_alone.clear();
+            self.count_decision(chosen);
             return;
         };
         self.move_to(followed_rev_s);
+        self.count_decision(chosen);
         let reviews_before = f64::from(self.reviews);
         self.reviews += 1;
         let unnamed_belief = self.unnamed_belief;
@@ -103,6 +118,32 @@ impl Octave {
         // what was improbable may become the truth again
         self.speeds.iter_mut().for_each(|speed| speed.belief = (speed.belief / sum).max(unnamed_belief.powi(2)));
         self.speeds.sort_by(|a, b| b.belief.total_cmp(&a.belief));
+        self.keep_doubt();
+    }
+
+    /// Where most reviews doubt, their product must not be sure: the leading speed keeps no more belief than leaves the decision open.
+    fn keep_doubt(&mut self) {
+        let doubt = 2.0 * (1.0 - self.belief_min);
+        let Some((leading, others)) = self.speeds.split_first_mut() else { return };
+        let alone = self.decided_alone.iter().find(|decided| leading.is_same(decided.speed_rev_s));
+        let is_by_most = 2 * alone.map_or(0, |decided| decided.reviews) > self.reviews;
+        let of_others: f64 = others.iter().map(|other| other.belief).sum();
+        if self.may_be_deceived || is_by_most || of_others >= doubt || of_others <= 0.0 {
+            return;
+        }
+        leading.belief = 1.0 - doubt;
+        others.iter_mut().for_each(|other| other.belief *= doubt / of_others);
+    }
+
+    /// Counts a review that decides for its most probable speed alone.
+    fn count_decision(&mut self, chosen: &PossibleSpeed) {
+        if chosen.belief < self.belief_min {
+            return;
+        }
+        match self.decided_alone.iter_mut().find(|decided| chosen.is_same(decided.speed_rev_s)) {
+            Some(decided) => decided.reviews += 1,
+            None => self.decided_alone.push(DecidedAlone { speed_rev_s: chosen.speed_rev_s, reviews: 1 }),
+        }
     }
 
     /// Scales all speeds as the followed one has changed.
@@ -110,6 +151,7 @@ impl Octave {
         let followed = self.speeds.iter().find(|speed| speed.is_same(followed_rev_s));
         let ratio = followed.map_or(1.0, |speed| followed_rev_s / speed.speed_rev_s);
         self.speeds.iter_mut().for_each(|speed| speed.speed_rev_s *= ratio);
+        self.decided_alone.iter_mut().for_each(|decided| decided.speed_rev_s *= ratio);
     }
 
     /// Whether this speed is the most probable one.
@@ -121,7 +163,8 @@ impl Octave {
     pub(crate) fn possible(&self) -> &[PossibleSpeed] {
         let count = self.speeds.iter().take_while(|speed| speed.belief >= 1.0 - self.belief_min).count();
         let is_decided = self.speeds.first().is_none_or(|leading| leading.belief >= self.belief_min);
-        &self.speeds[..if is_decided || count < 2 { 0 } else { count }]
+        // an open decision has two speeds or more
+        &self.speeds[..if is_decided || self.speeds.len() < 2 { 0 } else { count.max(2) }]
     }
 }
 
@@ -158,11 +201,25 @@ mod tests {
             let mut octave = Octave::new(&EvidenceConfig::default(), may_be_deceived);
             octave.take(&review, None);
             (0..9).for_each(|_| octave.take(&review, Some(90.0)));
-            assert_eq!(octave.possible().len(), if may_be_deceived { 3 } else { 0 }, "{octave:?}");
+            assert!(octave.possible().len() >= 2 && octave.is_leading(90.0), "{octave:?}");
             if may_be_deceived {
+                assert_eq!(octave.possible().len(), 3, "{octave:?}");
                 assert!((octave.possible()[0].belief - 0.93).abs() < 1e-9, "{octave:?}");
             }
         }
+    }
+
+    /// A helicopter of the recordings: `speed` on the whole of it says 97 % and leaves the octave open.
+    #[test]
+    fn doubtful_reviews_after_one_that_decides_leave_the_octave_open() {
+        let mut octave = Octave::new(&EvidenceConfig::default(), false);
+        octave.take(&beliefs(&[(75.0, 0.995), (37.5, 0.005)]), None);
+        assert!(octave.possible().is_empty());
+        octave.take(&beliefs(&[(75.0, 0.91), (37.5, 0.09)]), Some(75.0));
+        assert_eq!(octave.possible().len(), 2, "{octave:?}");
+        // two of three that decide alone decide
+        octave.take(&beliefs(&[(75.0, 0.996), (37.5, 0.004)]), Some(75.0));
+        assert!(octave.possible().is_empty() && octave.is_leading(75.0), "{octave:?}");
     }
 
     #[test]

@@ -57,13 +57,13 @@ pub enum LogError {
         cell: String,
     },
     /// No column with times.
-    #[error("no column holds the time with its unit; the columns are: {columns}")]
+    #[error("no column has a name for the time with its unit; the columns are: {columns}")]
     NoTime {
         /// The headers.
         columns: String,
     },
     /// No column about rotors.
-    #[error("no columns hold motors or body rates; the columns are: {columns}")]
+    #[error("no column is a motor or a body rate; the columns are: {columns}")]
     NoSignal {
         /// The headers.
         columns: String,
@@ -77,7 +77,7 @@ pub enum LogError {
         second: String,
     },
     /// Times that decrease.
-    #[error("line {line}: its time, {time_s} s, is before that of the line above it")]
+    #[error("line {line}: its time, {time_s} s, is earlier than the time of the line above")]
     NotInOrder {
         /// Line, counted from 1.
         line: u64,
@@ -103,7 +103,7 @@ pub enum LogError {
         columns: String,
     },
     /// A name for a column that has no meaning.
-    #[error("\"{name}\" is no column name that hovertone knows, so the column \"{header}\" cannot have it")]
+    #[error("\"{name}\" is no column name that hovertone knows, so it cannot stand for the column \"{header}\"")]
     NameWithoutMeaning {
         /// The header of the user.
         header: String,
@@ -111,7 +111,7 @@ pub enum LogError {
         name: String,
     },
     /// Names for the columns of a log that has none.
-    #[error("this {format} has names for its signals, and its columns cannot have other names")]
+    #[error("the signals of this {format} have fixed names, which --column cannot change")]
     NoColumns {
         /// Format of the log.
         format: LogFormat,
@@ -123,6 +123,8 @@ pub enum LogError {
         name: String,
         /// Names of the tables.
         tables: String,
+        /// The name with its table, where the table was left out.
+        meant: Option<String>,
     },
     /// Signals of several tables, which do not share their times.
     #[error("\"{first}\" and \"{second}\" are signals of two tables with different times")]
@@ -185,7 +187,9 @@ impl LogError {
                 "name it as time_s, rotor1_rpm, motor1_pwm or gyro_x_rad_s (docs/logs.md)"
             }
             Self::NoColumns { .. } => "leave --column out: it is for CSV",
-            Self::NoSuchSignal { .. } => "`hovertone log FILE --signals` lists them",
+            Self::NoSuchSignal { .. } => {
+                "`hovertone log FILE --signals` lists all signals; copy a name from there, with its table"
+            }
             Self::SeveralTables { .. } => "write the signals of each table into a file of their own",
         }
     }

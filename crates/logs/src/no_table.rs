@@ -13,6 +13,9 @@ pub enum NoTable {
     /// TOML: an experiment or a scenario.
     #[error("this file is TOML, and a table is needed")]
     Toml,
+    /// Rows of numbers without names above them.
+    #[error("the first line of this table has numbers only, but it must name the columns")]
+    NoHeader,
 }
 
 impl NoTable {
@@ -20,6 +23,9 @@ impl NoTable {
     pub fn hint(self) -> &'static str {
         match self {
             Self::Empty | Self::Json => "give a CSV file whose first line names the columns",
+            Self::NoHeader => {
+                "write a first line with a name for each column: for `hovertone fit` as in speed_rpm,thrust_g; for a log as in time_s,rotor1_rpm"
+            }
             Self::Toml => {
                 "give a CSV file whose first line names the columns; `hovertone identify` takes an experiment file, `hovertone simulate` a scenario file"
             }
@@ -36,9 +42,17 @@ impl NoTable {
             None if text.trim().is_empty() => Err(Self::Empty),
             Some(line) if is_toml(line) => Err(Self::Toml),
             Some(line) if line.starts_with(['{', '[']) => Err(Self::Json),
+            Some(line) if are_numbers(line) => Err(Self::NoHeader),
             _ => Ok(()),
         }
     }
+}
+
+/// Whether all cells of a line are numbers, with decimal points or commas, and there are two or more.
+fn are_numbers(line: &str) -> bool {
+    let cells =
+        || line.split([',', ';', '\t']).map(|cell| cell.trim().trim_matches('"')).filter(|cell| !cell.is_empty());
+    cells().count() > 1 && cells().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite))
 }
 
 /// Whether a line is `[name]`, `[[name]]` or `name = value`.
@@ -68,6 +82,9 @@ mod tests {
             ("time_s,rotor1_rpm\n0,1\n", Ok(())),
             ("Time (s);Thrust [N]\n", Ok(())),
             ("# a comment alone\n", Ok(())),
+            ("3600,1.2\n3700,1.3\n", Err(NoTable::NoHeader)),
+            ("3600,5;1,2\n", Err(NoTable::NoHeader)),
+            ("rpm,1\n3600,2\n", Ok(())),
         ] {
             assert_eq!(NoTable::check(text), expected, "{text}");
         }

@@ -141,6 +141,7 @@ pub fn signal_rows(
         wanted,
         take,
         found: vec![false; wanted.len()],
+        meant: vec![None; wanted.len()],
         table_names: Vec::new(),
         chosen: None,
         other: None,
@@ -149,8 +150,8 @@ pub fn signal_rows(
     let (_, findings) = read_log(source, names, &mut streamer)?;
     streamer.table_names.sort_unstable();
     if let Some(at) = streamer.found.iter().position(|is_found| !is_found) {
-        let tables = streamer.table_names.join(", ");
-        return Err(LogError::NoSuchSignal { name: wanted[at].clone(), tables });
+        let (tables, meant) = (streamer.table_names.join(", "), streamer.meant[at].take());
+        return Err(LogError::NoSuchSignal { name: wanted[at].clone(), tables, meant });
     }
     streamer.refuse_several_tables()?;
     Ok(findings.loss)
@@ -161,6 +162,8 @@ struct Streamer<'a, F> {
     take: F,
     /// Whether a signal of each name is there.
     found: Vec<bool>,
+    /// The whole name of a signal whose own name was typed without its table.
+    meant: Vec<Option<String>>,
     table_names: Vec<String>,
     /// The table of the chosen signals.
     chosen: Option<ChosenTable>,
@@ -195,6 +198,9 @@ impl<F: FnMut(&SignalRow) -> io::Result<()>> RowSink for Streamer<'_, F> {
             let rest = wanted.strip_prefix(name.as_str());
             for (index, signal) in signals.iter().enumerate() {
                 let is_named = rest.is_some_and(|rest| rest.is_empty() || rest.strip_prefix('.') == Some(&signal.name));
+                if signal.name == *wanted {
+                    self.meant[at].get_or_insert_with(|| format!("{name}.{wanted}"));
+                }
                 if is_named {
                     self.found[at] = true;
                     if !chosen.indices.contains(&index) {

@@ -116,7 +116,7 @@ pub enum MediaError {
     },
 
     /// A header field with an impossible value.
-    #[error("the {container}'s header is nonsense: {field} = {value}, and it must be {limit}; export the file again")]
+    #[error("the header of the {container} is wrong: {field} = {value}, but it must be {limit}; export the file again")]
     BadHeader {
         /// The container.
         container: Container,

@@ -133,7 +133,7 @@ impl fmt::Display for MediaWarning {
                 write!(f, "{count} damaged pieces of sound were replaced by {silence_s:.3} s of silence")
             }
             Self::NonFiniteSamples { count } => {
-                write!(f, "NaN or infinite audio samples: {count}; they were replaced by zero")
+                write!(f, "{count} audio samples are no numbers (NaN or infinite); they were replaced by zero")
             }
             Self::Overdriven { share } => {
                 write!(f, "the recording is overdriven: {:.0} % of its audio samples are at full scale", 100.0 * share)

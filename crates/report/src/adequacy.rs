@@ -76,7 +76,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
     match (preferred_law(fit), fit.with_intercept, fit.power_law) {
         (None, ..) if fit.laws.len() > 1 => {
             format!(
-                "no law is clearly the most probable, so none is preferred; C_f is that of {}\n",
+                "no law is clearly the most probable, so none is preferred; C_f belongs to the law {}\n",
                 ForceLaw::Square.formula()
             )
         }
@@ -98,7 +98,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
         ),
         _ if fit.laws.len() <= 1 && fit.points.len() > LAW_PARAMETERS => format!(
-            "no other law is compared with {}: the forces are too close together for a choice\n",
+            "no other law is compared with {}: the forces are too alike to choose between laws\n",
             ForceLaw::Square.formula()
         ),
         _ => String::new(),
@@ -109,12 +109,13 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "χ² = {} with {} degree{} of freedom, {}; rows differ from the law by {:.2} % of the largest force (rms)\n",
+            "rows differ from the law by {:.2} % of the largest force (rms); if the law holds, the chance of such differences is {} (χ² = {}, \
+            {} degree{} of freedom)\n",
+            100.0 * fit.residual_rms_share,
+            p_value_text(agreement.p_value),
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
-            p_value_text(agreement.p_value),
-            100.0 * fit.residual_rms_share
         ),
         None if fit.points.len() > 1 => {
             format!("rows differ from the law by {:.2} % of the largest force (rms)\n", 100.0 * fit.residual_rms_share)
@@ -161,8 +162,8 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
 fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "check: {} random repetitions of the recordings (bootstrap, seed {}) give a standard uncertainty of {} %; the rows \"{}\" and \
-            \"{}\" together should give about the same\n",
+            "check: the fit was repeated with {} random choices of the recordings (bootstrap, seed {}). This gives a standard uncertainty of {} %. \
+            The rows \"{}\" and \"{}\" together should give about the same\n",
             drawn.draws,
             drawn.seed,
             significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2),

@@ -20,7 +20,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
     wanted().next()?;
     for record in wanted() {
         let why_none = if record.rotors().is_empty() {
-            "none: lines are compared only where two or more rotors could be separated"
+            "not known: this needs two or more rotors that could be separated"
         } else {
             ""
         };
@@ -30,7 +30,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
             let Some(condition) = &rotor.condition else {
                 table.push_words(
                     name,
-                    "the number of blades is not known, or the tone of the blades is not separated from that of another rotor".to_owned(),
+                    "not known: the number of blades is not given, or the tone of these blades could not be separated from another rotor".to_owned(),
                 );
                 continue;
             };

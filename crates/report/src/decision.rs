@@ -81,7 +81,7 @@ fn odds_in_words(chosen: Option<&Weighed>, is_ambiguous: bool) -> String {
             format!("not decided: {} rev/s, {}", significant(*speed_rev_s, DIGITS), odds(*plausibility))
         }
         Some(Weighed { plausibility, .. }) => odds(*plausibility),
-        None => "no other speed was weighed".to_owned(),
+        None => "no other speed was compared".to_owned(),
     }
 }
 

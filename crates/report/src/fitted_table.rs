@@ -91,7 +91,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let (of_all, total) = match table.rotor_count {
         1 => (String::new(), String::new()),
         count => (
-            format!("C_f and F₀ in these laws are of all {count} rotors together\n"),
+            format!("in these laws, C_f and F₀ belong to all {count} rotors together\n"),
             format!("C_f, all {count} rotors = {} ({meaning})\n", quoted(table.thrust_constant_total_n_s2)),
         ),
     };
@@ -106,18 +106,25 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     );
     if let Some(both) = table.thrust_coefficients {
         text += &format!(
-            "C_T = {} by T/(ρ n² D⁴), or {} by T/(ρ A (ωR)²), for the thrust T of one rotor in air of {} kg/m³\n",
+            "thrust coefficient C_T = {} as for propellers, T/(ρ n² D⁴); {} as for helicopters, T/(ρ A (ωR)²); T is the thrust of one rotor, in air of {} kg/m³\n",
             significant(both.propeller, 4),
             significant(both.rotorcraft, 4),
             significant(both.density_kg_m3, 4)
         );
     }
     if let Some(merit) = table.figure_of_merit {
-        text += &format!("figure of merit at the largest thrust = {}\n", significant(merit, 3));
+        text += &format!(
+            "figure of merit (ideal power over measured power) at the largest thrust = {}\n",
+            significant(merit, 3)
+        );
     }
     if let Some(torque) = table.torque_constant_per_rotor_n_m_s2 {
         let unit = PowerOfTen::of([torque]);
-        text += &format!("C_τ, one rotor = {} {}\n", significant(unit.scale(torque), 4), unit.unit("N m s²"));
+        text += &format!(
+            "torque constant C_τ, one rotor = {} {}\n",
+            significant(unit.scale(torque), 4),
+            unit.unit("N m s²")
+        );
     }
     text
 }

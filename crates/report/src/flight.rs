@@ -74,9 +74,8 @@ pub fn simulated_flight_table(flight: &SimulatedFlight, width: Option<usize>) ->
     }
     text += &table_text(&table, width);
     if let Some(total) = flight.thrust_constant_total_n_s2 {
-        text += &format!(
-            "C_f of the whole vehicle, in hover: {total:.4e} N s² (the weight m g over the mean ω² of a rotor)\n"
-        );
+        text +=
+            &format!("C_f of the whole vehicle, in hover: {total:.4e} N s² (weight m g over the mean ω² of a rotor)\n");
     }
     text
 }
@@ -112,7 +111,7 @@ mod tests {
             "3610.00",
             "0.73",
             "7.0775e-6",
-            "2.8310e-5 N s² (the weight m g",
+            "2.8310e-5 N s² (weight m g",
         ] {
             assert!(text.contains(words), "{words}:\n{text}");
         }

@@ -56,7 +56,7 @@ fn checks_table(logged: &[Logged<'_>]) -> TextTable {
                 failed.or_else(undecided).unwrap_or_else(|| "passed".to_owned())
             }
             (None, Some(reason)) => format!("none: {}", reason.text),
-            (None, None) => "none: no speeds in the log, or no rotor tone".to_owned(),
+            (None, None) => "none: the log has no speeds, or no rotor was heard".to_owned(),
         };
         shown.push(vec![
             (*load).to_owned(),
@@ -101,7 +101,9 @@ fn rotors_table(logged: &[Logged<'_>]) -> TextTable {
         if let Some(reason) = log.reason_of_labels() {
             shown.push_words(
                 (*name).to_owned(),
-                format!("names without a probability are the nearest motors: {reason}"),
+                format!(
+                    "where no probability is given, the name is that of the motor with the nearest speed: {reason}"
+                ),
             );
         }
     }
@@ -153,7 +155,7 @@ fn motors_table(logged: &[Logged<'_>]) -> TextTable {
 fn no_time_constant(record: &MotorRecord) -> Option<&'static str> {
     let first = record.motors.first().filter(|_| !record.has_time_constant())?;
     Some(match first.model.is_too_slow {
-        true => "a motor reaches its speed within 300 ms, and 3 log rows must lie in that",
+        true => "a motor reaches its speed within 300 ms, and 3 log rows or more must lie in this time",
         false => "the speed makes no step from one steady value to another",
     })
 }

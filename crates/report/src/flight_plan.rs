@@ -13,19 +13,19 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
     let intercept = match plan.force_ratio_for_intercept {
         Some(ratio) if ratio <= range => {
-            "These loads also test F = C_f ω²: they show a force at ω = 0 (intercept) of 2 % of the largest.".to_owned()
+            "These loads also test the law F = C_f ω²: they would show a force at speed zero (intercept) of 2 % of the largest force.".to_owned()
         }
         Some(ratio) => {
             // rounded up, so that the named mass is enough
             let added_g = (1e3 * wish.vehicle_mass_kg * (ratio - 1.0)).ceil();
             let [ratio, range] = compared([ratio, range]);
             format!(
-                "To test F = C_f ω², the vehicle with its heaviest load must weigh {ratio} times the vehicle with its lightest. Yours weighs {range} times.\n\
-                 If it can carry {added_g} g, plan with --added-mass-kg {}.",
+                "To test the law F = C_f ω², the heaviest flight must weigh {ratio} times the lightest. In this plan it weighs {range} times the lightest.\n\
+                 If the vehicle can carry {added_g} g, plan with --added-mass-kg {}.",
                 added_g / 1e3
             )
         }
-        None => "With only these recordings, no range of loads can test F = C_f ω² to 2 % of the force.".to_owned(),
+        None => "These recordings are too few to test the law F = C_f ω² to 2 % of the force, even with the best loads.".to_owned(),
     };
     let separated = match plan.largest {
         BudgetInput::LoudestRotor => {
@@ -35,7 +35,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     format!(
         "{} loads (add {}), {} trials of each, {:.0} s of hover in each trial: {:.1} minutes of hover\n\
-         Expected: C_f ± {} % (k = 2). Most of it: {}.{separated}\n{intercept}\n",
+         Expected: C_f ± {} % (k = 2). The largest part of this ± comes from: {}.{separated}\n{intercept}\n",
         plan.load_count,
         added.join(", "),
         plan.trials_per_load,

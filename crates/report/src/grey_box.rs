@@ -1,7 +1,8 @@
 //! The grey box of eqs 1 and 2: a table for people, a JSON line for programs.
 
+use crate::motor::torque_constant_text;
 use crate::notice::Notice;
-use crate::number::{DASH, fixed, scaled_number, significant, with_uncertainty};
+use crate::number::{DASH, fixed, significant, with_uncertainty};
 use crate::printable::printable;
 use crate::quote::counted;
 use crate::table_lines::table_text;
@@ -92,9 +93,9 @@ pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
 /// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
 fn trust(record: &GreyBoxRecord) -> &'static str {
     if record.are_speeds_logged {
-        "the ± is too small: in simulated flights 55 to 87 % of the errors were within it"
+        "the ± is too small: in simulated flights, only 55 to 87 % of the errors were within it, and 95 % should"
     } else {
-        "the ± is too small, and a single gain can be wrong: in simulated flights 33 to 56 % of the errors were within the ±; compare with another flight (--check)"
+        "the ± is too small, and a single gain can be wrong: in simulated flights, only 33 to 56 % of the errors were within the ±, and 95 % should; compare with another flight (--check)"
     }
 }
 
@@ -117,7 +118,8 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     let axes: Vec<&str> = Axis::ALL.into_iter().filter(is_negative).map(Axis::in_words).collect();
     let gains = (!axes.is_empty()).then(|| {
         let (gains, are) = if axes.len() > 1 { ("gains", "are") } else { ("gain", "is") };
-        let what = format!("the {gains} k_p of {} {are} negative, and no vehicle can fly so", axes.join(" and "));
+        let what =
+            format!("the {gains} k_p of {} {are} negative (the command answers an error in the wrong direction), and no vehicle can fly so", axes.join(" and "));
         Notice::new(what, "check --log-axes, and the signs of the log's columns")
     });
     let better = record.better.map(Warning::FitsElsewhere);
@@ -129,7 +131,7 @@ fn moved_in_words(log: &str, moved_s: f64) -> Option<String> {
     let by = if moved_s < 0.0 { "earlier" } else { "later" };
     let is_moved = moved_s != 0.0;
     is_moved.then(|| {
-        format!("the clock of {} was set {:.2} s {by}, where the sound follows the log", printable(log), moved_s.abs())
+        format!("the clock of {} was set {:.2} s {by}: there, the sound follows the log", printable(log), moved_s.abs())
     })
 }
 
@@ -185,22 +187,21 @@ fn motor_table(record: &GreyBoxRecord) -> TextTable {
 }
 
 fn torque_line(constant: &TorqueConstant) -> String {
-    match constant {
-        TorqueConstant::Told(told) => {
-            let scaled = scaled_number(told.value, told.std_uncertainty);
-            let (digits, exponent) = (&scaled.digits, scaled.exponent);
-            format!("C_τ of one rotor: ({digits}) 1e{exponent} N m s², if the vehicle's I_zz is right\n")
-        }
-        other => format!("C_τ: not known, because {}\n", other.reason().unwrap_or_default()),
-    }
+    let told = match constant {
+        TorqueConstant::Told(told) => Ok((*told, ", if the yaw inertia I_zz of the vehicle is right".to_owned())),
+        other => Err(other.reason().unwrap_or_default()),
+    };
+    torque_constant_text(told)
 }
 
 fn rank_line(record: &GreyBoxRecord) -> String {
     let information = &record.fit.information;
     let told = record.fit.std_uncertainty.iter().flatten().count();
-    let of_all = format!("the flight shows {told} of the {} parameters", information.parameters);
+    let of_all = format!("the flight shows {told} of the {} numbers of the model", information.parameters);
     let rank = match information.rank {
-        rank if rank < information.parameters => format!("{of_all}, and only {rank} combinations of them can be found"),
+        rank if rank < information.parameters => {
+            format!("{of_all}; only {rank} of them could be found independently of each other")
+        }
         _ => of_all,
     };
     let names = match record.names_nats {
@@ -213,13 +214,17 @@ fn rank_line(record: &GreyBoxRecord) -> String {
 /// Odds of 99 to 1.
 const NAMES_NATS_MIN: f64 = 4.6;
 
+/// Smallest change of the speeds that is worth a comparison, in per cent.
+const PERCENT_MIN: f64 = 0.001;
+
 fn check_lines(record: &GreyBoxRecord) -> String {
-    let line = |of: &Checked| {
-        format!(
-            "predicted speeds are off by {} % rms; the speeds change by {} %",
+    let line = |of: &Checked| match PERCENT * of.change_share {
+        ..PERCENT_MIN => "the speeds do not change, so nothing is compared".to_owned(),
+        percent => format!(
+            "the predicted speeds differ from the true ones by {} % (rms); the speeds themselves change by {} % (rms)",
             significant(PERCENT * of.rms_share, 2),
-            significant(PERCENT * of.change_share, 2)
-        )
+            significant(percent, 2)
+        ),
     };
     let mut text = record.fitted.as_ref().map_or(String::new(), |fitted| format!("on this flight: {}\n", line(fitted)));
     if let Some(other) = &record.other_flight {
@@ -227,7 +232,7 @@ fn check_lines(record: &GreyBoxRecord) -> String {
         let name = printable(other.recording.as_deref().unwrap_or(&other.log));
         text += &match &other.result {
             Some(result) => format!("on {name}, not used for the fit: {}\n", line(result)),
-            None => format!("on {name}: no rotor could be separated, so nothing is compared\n"),
+            None => format!("on {name}: no rotor could be separated from the others, so nothing is compared\n"),
         };
     }
     text

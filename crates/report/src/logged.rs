@@ -28,8 +28,8 @@ pub fn log_text(file: &str, log: &LogSummary, has_names: bool, width: Option<usi
     }
     text += &format!("\n{}", table_text(&tables_table(log), width));
     if has_names {
-        let of_table = |table: &TableSummary| format!("\n{}\n  {}\n", printable(&table.name), names_of(table));
-        text.extend(log.tables.iter().map(of_table));
+        text += "\nsignals, as --signal takes them\n";
+        text.extend(log.tables.iter().map(names_of));
     }
     text
 }
@@ -105,15 +105,16 @@ fn tables_table(log: &LogSummary) -> TextTable {
     shown
 }
 
-/// Names of all signals of a table, with their units.
+/// Names of all signals of a table, one on a line, with their units.
 fn names_of(table: &TableSummary) -> String {
-    let with_unit = |signal: &SignalSummary| match signal.signal.unit.as_str() {
-        "" => printable(&signal.signal.name),
-        unit => printable(&format!("{} ({unit})", signal.signal.name)),
+    let line = |signal: &SignalSummary| {
+        let name = printable(&format!("{}.{}", table.name, signal.signal.name));
+        match signal.signal.unit.as_str() {
+            "" => format!("  {name}\n"),
+            unit => format!("  {name}  ({})\n", printable(unit)),
+        }
     };
-    let names: Vec<String> = table.signals.iter().map(with_unit).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    joined(&names).join(", ")
+    table.signals.iter().map(line).collect()
 }
 
 /// Names that differ in the number in their first brackets as one: "esc[0–7].esc_rpm".

@@ -102,8 +102,9 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
     let mut words = table_text(&text, width);
     if let Some(expanded) = heard.expanded_uncertainty_n_s2 {
         let percent = 100.0 * expanded / heard.thrust_constant_n_s2;
-        words +=
-            &format!("± of the heard constant: {percent:.2} % (k = 2); speeds are for the vehicle that was heard\n");
+        words += &format!(
+            "the ± of the heard constant is {percent:.2} % (k = 2); each speed is the one at which the heard vehicle hovers\n"
+        );
     }
     words
 }
@@ -113,9 +114,11 @@ pub fn vehicle_model_text(model: &VehicleModel, heard: &ThrustTable) -> String {
     let Some(against) = model.against(heard) else { return String::new() };
     let unit = PowerOfTen::of([against.thrust_constant_per_rotor_n_s2]);
     let verdict = match (against.agrees, against.expanded_share) {
-        (Some(true), Some(share)) => format!("; within the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share),
+        (Some(true), Some(share)) => {
+            format!("; this is within the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share)
+        }
         (Some(false), Some(share)) => {
-            format!("; NOT within the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share)
+            format!("; this is outside the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share)
         }
         _ => String::new(),
     };

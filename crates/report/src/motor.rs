@@ -85,7 +85,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
-        text += "the log has too few rows for a time constant: a motor reaches its speed within 300 ms, and 3 rows must lie in this time\n";
+        text += "the log has too few rows for a time constant: a motor reaches its speed within 300 ms, and 3 rows or more must lie in this time\n";
     } else if !has_steps {
         text += "no step: the speed never changes from one steady value to another\n";
     }
@@ -96,7 +96,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     }
     if other_count > 0 {
         text += &format!(
-            "left out: {} of the speed that a first-order curve does not fit\n",
+            "left out: {} of the speed that no first-order curve (an exponential approach) fits\n",
             counted(other_count, "change")
         );
     }
@@ -124,13 +124,13 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
             let frame_ms = significant(sound.frame_s * MS_PER_S, 3);
             let has_steps = shown_steps(record).next().is_some();
             let heard = format!(
-                "the steps are heard in the sound, in pieces of {frame_ms} ms; an echo of the room can make their time constants wrong by some per cent\n"
+                "the speeds come from the sound, in pieces of {frame_ms} ms; an echo in the room can make the time constants wrong by some per cent\n"
             );
             let heard = if has_steps { heard } else { String::new() };
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {
                 let offset_s = fixed(offset_s, 3);
-                format!("offset of the commands {offset_s} s, found from the steps. So the dead time is not known; if you know the offset \
-                between the clocks, give --offset\n")
+                format!("offset of the commands: {offset_s} s, found from the steps. So the dead time (from a command to the start of its effect) is not \
+                known; if you know the offset between the clocks, give --offset\n")
             });
             heard + &offset
         }
@@ -211,24 +211,24 @@ pub(crate) fn in_ms(estimate: Option<Estimate>) -> String {
 fn verdict_in_words(verdict: StepVerdict) -> &'static str {
     match verdict {
         StepVerdict::Used => "",
-        StepVerdict::TooSlowRows => "too fast for the rows: left out",
-        StepVerdict::Saturated => "saturated: left out",
-        StepVerdict::AtRest => "starts or stops: left out",
-        StepVerdict::OtherCurve => "not of first order: left out",
-        StepVerdict::Uncertain => "too uncertain: left out",
+        StepVerdict::TooSlowRows => "left out: too fast for the rows of the log",
+        StepVerdict::Saturated => "left out: the speed no longer follows the command (saturated)",
+        StepVerdict::AtRest => "left out: the motor starts or stops",
+        StepVerdict::OtherCurve => "left out: not a first-order curve",
+        StepVerdict::Uncertain => "left out: too uncertain",
     }
 }
 
 /// How the load changes the time constant, or why this is not known.
 fn load_text(constants: &MotorConstants) -> String {
     let Some(LoadTerm { unloaded_rate_per_s, square_per_rev, .. }) = constants.load_term else {
-        return "whether the time constant changes with the speed is not known: the steps cover too small a range of speeds\n"
+        return "the steps cover too small a range of speeds to show whether the time constant changes with the speed\n"
             .to_owned();
     };
     let rate = with_uncertainty(unloaded_rate_per_s.value, unloaded_rate_per_s.std_uncertainty);
     let square = with_uncertainty(square_per_rev.value, square_per_rev.std_uncertainty);
     format!(
-        "the time constant τ changes with the speed ω: 1/τ = 1/τ₀ + 2 k ω with 1/τ₀ = {rate} 1/s, k = {square} 1/rev\n"
+        "the time constant τ changes with the speed ω: 1/τ = 1/τ₀ + 2 k ω, with 1/τ₀ = {rate} 1/s and k = {square} 1/rev\n"
     )
 }
 
@@ -240,8 +240,8 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
                 "\nspeed of each command: not known, because no command in this log changes\n".to_owned()
             }
             MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
-                "\nspeed of each command: not known, because the commands do not step when the sound does; check that they are of the same \
-                run\n"
+                "\nspeed of each command: not known, because the commands and the heard speeds do not change at the same times; check that both are \
+                of the same run\n"
                     .to_owned()
             }
             MotorSource::Sound(_) => {
@@ -252,10 +252,10 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
     if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
-        text += "gain: slope of the straight line through the settled speeds; the line holds only between the smallest and the largest of these commands\n";
+        text += "gain: change of the settled speed per unit of the command; it holds only between the smallest and the largest of these commands\n";
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "from all log rows, because no command is held: the motor follows late, so this gain is too small\n";
+        text += "no command is held, so the gain comes from all log rows; the motor follows late, so this gain is too small\n";
     }
     if maps().any(|map| !map.points.is_empty()) {
         text += &format!("\n{}", table_text(&plateaus_table(record), width));
@@ -267,17 +267,27 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
 }
 
 fn torque_text(torque: &BenchTorque) -> String {
-    match torque {
+    let told = match torque {
         BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
-            let scaled = scaled_number(constant_n_m_s2.value, constant_n_m_s2.std_uncertainty);
-            let (digits, exponent) = (&scaled.digits, scaled.exponent);
             let offset = significant(*offset_n_m, 2);
-            format!(
-                "\nC_τ of one rotor: ({digits}) 1e{exponent} N m s² (k = 2, of the fit alone), by the torque at {level_count} settled \
-                speeds; at rest the torque is {offset} N m\n"
-            )
+            let how = format!(
+                " (± is k = 2, of the fit alone), by the torque at {level_count} settled speeds; at rest the torque is {offset} N m"
+            );
+            Ok((*constant_n_m_s2, how))
         }
-        other => format!("\nC_τ: not known, because {}\n", other.reason().unwrap_or_default()),
+        other => Err(other.reason().unwrap_or_default()),
+    };
+    format!("\n{}", torque_constant_text(told))
+}
+
+/// The line of the torque constant in torque = C_τ ω²: its value with the words behind it, or the reason why it is not known.
+pub(crate) fn torque_constant_text(told: Result<(Estimate, String), String>) -> String {
+    match told {
+        Ok((constant, how)) => {
+            let scaled = scaled_number(constant.value, constant.std_uncertainty);
+            format!("torque constant C_τ of one rotor: ({}) 1e{} N m s²{how}\n", scaled.digits, scaled.exponent)
+        }
+        Err(reason) => format!("torque constant C_τ: not known, because {reason}\n"),
     }
 }
 
@@ -342,6 +352,6 @@ fn simulator_lines(constants: &MotorConstants) -> String {
     }
     let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
     format!(
-        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity is the largest speed in this file; the motor may reach more)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
+        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity is the largest speed in this file; the motor may turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
     )
 }

@@ -11,12 +11,30 @@ pub struct Notice {
     pub text: String,
     /// The advice.
     pub hint: String,
+    /// What it is about, where another part of the program must know it.
+    pub kind: NoticeKind,
+}
+
+/// What a notice is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoticeKind {
+    /// Anything else.
+    #[default]
+    Other,
+    /// The sound contradicts the facts that were given.
+    AnotherRotorFits,
 }
 
 impl Notice {
     /// From a text and a hint.
     pub fn new(text: impl Into<String>, hint: impl Into<String>) -> Self {
-        Self { text: text.into(), hint: hint.into() }
+        Self { text: text.into(), hint: hint.into(), kind: NoticeKind::Other }
+    }
+
+    /// The same, of a kind.
+    pub fn of_kind(self, kind: NoticeKind) -> Self {
+        Self { kind, ..self }
     }
 }
 

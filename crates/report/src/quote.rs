@@ -25,8 +25,7 @@ impl Verdict {
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
             format!(" (χ² = {:.2}, {})", agreement.chi_square, p_value_text(agreement.p_value))
         });
-        let is_foreign = |warning: &&ThrustWarning| matches!(warning, ThrustWarning::VehicleDoesNotFit { .. });
-        if let Some(foreign) = table.warnings.iter().find(is_foreign) {
+        if let Some(foreign) = table.warnings.iter().find(|warning| warning.is_of_other_vehicle()) {
             return Self::Fails(foreign.to_string());
         }
         let is_exchange = |warning: &&ThrustWarning| matches!(warning, ThrustWarning::HeavierTurnedSlower { .. });
@@ -44,7 +43,7 @@ impl Verdict {
             let why = match heard {
                 0 | 1 => "there is no second load with a speed to compare with",
                 _ => {
-                    "each load has one recording, which does not show how much the speed differs from flight to flight"
+                    "each load has only one recording, so nothing shows how much the speed differs from flight to flight"
                 }
             };
             return Self::Untested(format!("not tested: {why}"));

@@ -61,6 +61,12 @@ pub enum Contradicted {
 /// In less sound, hovering longer is no advice: there is too little of it. *Decision.*
 const HOVER_S_MIN: f64 = 1.0;
 
+/// Length of the sound where it is too short for any rotor: then no other reason tells more. `None` where it is long enough, silent, or empty.
+fn too_short_s(analysis: &SpeedAnalysis, reason: &NoTone) -> Option<f64> {
+    let is_other = matches!(reason, NoTone::Silence | NoTone::OutsideRecording { .. });
+    analysis.hover.span_s().filter(|heard_s| !is_other && *heard_s < HOVER_S_MIN)
+}
+
 /// Result of the search for a tone of unknown order.
 #[derive(Clone, Debug)]
 pub struct Found {
@@ -225,8 +231,8 @@ impl SpeedRecord {
     /// Reason for a missing speed of an analysis, with the flags of `hovertone speed`.
     fn reason_of(&self, analysis: &SpeedAnalysis) -> Option<String> {
         match &analysis.outcome {
-            Outcome::NoRotorTone { reason: NoTone::NoHover } if analysis.hover.span_s().is_some_and(|span_s| span_s < HOVER_S_MIN) => {
-                analysis.hover.span_s().map(|heard_s| NoTone::TooShort { heard_s }.to_string())
+            Outcome::NoRotorTone { reason } if let Some(heard_s) = too_short_s(analysis, reason) => {
+                Some(NoTone::TooShort { heard_s }.to_string())
             }
             Outcome::NoRotorTone { reason } => {
                 let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.in_words(self.given_facts()));

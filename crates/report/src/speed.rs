@@ -57,8 +57,10 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
                 }
                 match readings.len().saturating_sub(shown) {
                     0 => {}
-                    more => table
-                        .push_words(format!("  {more} more"), "each below 1 %: hovertone tones lists them".to_owned()),
+                    more => table.push_words(
+                        format!("  {more} more"),
+                        "each below 1 %: `hovertone tones` lists them".to_owned(),
+                    ),
                 }
             }
             None => table.push_words(name(record), "no rotor tone".to_owned()),
@@ -275,8 +277,7 @@ impl LabelsLine {
             offset_std_uncertainty_s: None,
             probability: None,
             reason: Some(
-                "rotors are in the order of their speeds: the sound of one microphone does not tell which is which"
-                    .to_owned(),
+                "rotor 1 is the fastest: one microphone does not show which rotor of the vehicle it is".to_owned(),
             ),
         };
         match &record.labels {

@@ -150,7 +150,7 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method, width: Option<us
     let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
     let coefficients = coefficients.map_or(String::new(), |both| {
         format!(
-            "\nthrust coefficient of one rotor: {} for a propeller, T/(ρ n² D⁴); {} for a rotorcraft, T/(ρ A (ωR)²); air of {} kg/m³\n",
+            "\nthrust coefficient C_T of one rotor: {} as for propellers, T/(ρ n² D⁴); {} as for helicopters, T/(ρ A (ωR)²); in air of {} kg/m³\n",
             significant(both.propeller, 4),
             significant(both.rotorcraft, 4),
             significant(both.density_kg_m3, 4),

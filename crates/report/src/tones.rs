@@ -71,8 +71,10 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     let rotor = found.rotor.filter(|_| record.tone().is_some());
     let remark = rotor.and_then(|rotor| found.families.get(rotor)).and_then(|family| family.remark);
     let verdict = match (rotor, remark) {
-        (Some(_), Some(Remark::SingleLine)) => "one tone: of a rotor, or of something else".to_owned(),
-        (Some(_), _) if record.is_ambiguous() => "a rotor; the sound does not tell its speed".to_owned(),
+        (Some(_), Some(Remark::SingleLine)) => "a single tone, of a rotor or of something else".to_owned(),
+        (Some(_), _) if record.is_ambiguous() => {
+            "a rotor, but the sound does not show which of these speeds it has".to_owned()
+        }
         (Some(_), _) => record.speed().map_or("a rotor".to_owned(), |heard| heard_in_words(record, heard)),
         (None, _) if found.families.is_empty() => "no rotor tone, and no other tone".to_owned(),
         (None, _) => "no rotor tone".to_owned(),

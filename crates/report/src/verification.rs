@@ -70,25 +70,45 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
 }
 
 fn verdict_in_words(found: &Verification) -> String {
-    if let Some(Notice { text, hint }) = failed_check(found) {
+    if let Some(Notice { text, hint, .. }) = failed_check(found) {
         return format!("failed: {text}; {hint}");
     }
-    if let Some(Notice { text, hint }) = undecided_check(found) {
-        let limits = match text.contains(CLOCKS_NOT_COMPARED) {
-            true => "; or, if you know the offset of the clocks, give it with --log-offset-s LOW:HIGH",
-            false => "",
+    if let Some(undecided) = undecided(found) {
+        let Notice { text, hint, .. } = undecided.notice(found);
+        let limits = match undecided {
+            Undecided::SteadySpeeds => {
+                "; or, if you know the offset of the clocks, give it with --log-offset-s LOW:HIGH"
+            }
+            _ => "",
         };
         return format!("not decided: {text}; {hint}{limits}");
     }
-    let percent = percent_of(found);
-    let small = match found.agreement {
-        Agreement::PlusMinusTooSmall => format!(
-            ". The ± of the heard speeds is too small: {} of the points lie within it, and 95 % should",
-            percent_in_words(found.coverage())
-        ),
-        _ => String::new(),
-    };
-    format!("passed: order and clock are right; the mean of the heard speeds differs by {percent} %{small}")
+    let of_means = format!("the mean of the heard speeds differs from the log by {} %", percent_of(found));
+    match small_plus_minus(found) {
+        Some(Notice { text, .. }) => {
+            format!("order and clock: passed, {of_means}\n±: not passed, {text}")
+        }
+        None => format!("passed: order and clock are right; {of_means}"),
+    }
+}
+
+/// That the stated ± holds too few of the logged speeds, although order and clock are right; `None` where it is large enough, or where the check
+/// does not pass anyway.
+pub fn small_plus_minus(found: &Verification) -> Option<Notice> {
+    let within = percent_in_words(found.coverage());
+    let few = format!("only {within} of the logged speeds lie within the ± of the heard speeds, and 95 % should");
+    match found.agreement {
+        _ if !found.is_right() || !found.passes() => None,
+        Agreement::PlusMinusTooSmall => Some(Notice::new(
+            format!("the ± is too small: {few}"),
+            "use the mean speeds; do not rely on the ± of the speed at a single moment",
+        )),
+        Agreement::AsStated if found.coverage() < COVERAGE_OF_HALF => Some(Notice::new(
+            format!("the ± may be too small: {few}. There are too few points to be sure"),
+            "compare a longer recording with its log",
+        )),
+        _ => None,
+    }
 }
 
 /// The verdict for programs.
@@ -106,42 +126,71 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
         _ if found.is_right() => None,
         Some(ratio) => Some(Notice::new(
             format!("heard speeds are {} times the logged ones", significant(ratio, 3)),
-            "check the number of blades or the order of the tone, and the number of pole pairs in the log; or the log is of another flight",
+            "check the number of blades or the order of the tone; check the number of pole pairs in the ESC's settings; check that the log is of this flight",
         )),
         None => Some(Notice::new(
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
-            "check the order of the tone, the clock of the recorder, and whether the log is of this flight",
+            "check the order of the tone and the clock of the recorder, and that the log is of this flight",
         )),
+    }
+}
+
+/// Why equal means prove nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Undecided {
+    /// The log fits better at an offset, in s, outside of the given limits.
+    OffsetOutside(f64),
+    /// Too few logged speeds lie within the ± of the heard ones.
+    FewWithin,
+    /// The speeds are too steady to compare the clocks.
+    SteadySpeeds,
+}
+
+/// Why the check is not decided, although the means are equal; `None` where it is decided.
+fn undecided(found: &Verification) -> Option<Undecided> {
+    if !found.is_right() || found.passes() {
+        return None;
+    }
+    let is_clock_known = found.is_offset_told || found.is_offset_given;
+    Some(match found.better_offset_s {
+        Some(offset_s) => Undecided::OffsetOutside(offset_s),
+        None if is_clock_known || found.agreement == Agreement::Scattered => Undecided::FewWithin,
+        None => Undecided::SteadySpeeds,
+    })
+}
+
+impl Undecided {
+    /// The reason in words, and what to check.
+    fn notice(self, found: &Verification) -> Notice {
+        let within = percent_in_words(found.coverage());
+        let few = format!("only {within} of the logged speeds lie within the ± of the heard speeds, and 95 % should");
+        let means = fixed(100.0 * (found.speed_ratio - 1.0).abs(), 2);
+        let means = format!("the mean speeds of sound and log are equal within {means} %, but");
+        match self {
+            Self::OffsetOutside(offset_s) => {
+                let offset = signed(offset_s, 2);
+                let what =
+                    format!("the log fits better at an offset near {offset} s, which --log-offset-s does not allow");
+                Notice::new(what, "give wider limits with --log-offset-s LOW:HIGH")
+            }
+            Self::FewWithin => Notice::new(
+                format!("{means} {few}"),
+                "check first that the log is of this flight, and then the offset of the clocks",
+            ),
+            Self::SteadySpeeds => {
+                let also = if found.coverage() < COVERAGE_OF_HALF { format!("; and {few}") } else { String::new() };
+                Notice::new(
+                    format!("{means} {CLOCKS_NOT_COMPARED}. So the log may be of another flight{also}"),
+                    "record a flight with a few quick climbs, which change the speeds",
+                )
+            }
+        }
     }
 }
 
 /// Why equal means prove nothing, and what to check.
 pub(crate) fn undecided_check(found: &Verification) -> Option<Notice> {
-    if !found.is_right() || found.passes() {
-        return None;
-    }
-    if let Some(offset_s) = found.better_offset_s {
-        let offset = signed(offset_s, 2);
-        let what = format!("the log fits better at an offset near {offset} s, outside of the limits of --log-offset-s");
-        return Some(Notice::new(what, "give wider limits"));
-    }
-    let means = format!("the means are equal within {} %, but", fixed(100.0 * (found.speed_ratio - 1.0).abs(), 2));
-    let few = format!(
-        "the logged speed lies within the ± of the heard speed in only {} of the points, and 95 % is normal",
-        percent_in_words(found.coverage())
-    );
-    let is_scattered = found.agreement == Agreement::Scattered;
-    if found.is_offset_told || found.is_offset_given || is_scattered {
-        return Some(Notice::new(
-            format!("{means} {few}"),
-            "check first that the log is of this flight, and then the offset of the clocks",
-        ));
-    }
-    let also = if found.coverage() < COVERAGE_OF_HALF { format!("; and {few}") } else { String::new() };
-    Some(Notice::new(
-        format!("{means} {CLOCKS_NOT_COMPARED}, so the log may be of another flight{also}"),
-        "record a flight with a few quick climbs, which change the speeds",
-    ))
+    undecided(found).map(|why| why.notice(found))
 }
 
 /// By how much heard speeds differ, in per cent.
@@ -204,4 +253,53 @@ pub fn verification_json(record: &VerificationRecord) -> Result<String, serde_js
         version: VERSION,
     };
     Ok(serde_json::to_string(&line)? + "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hovertone_analysis::VerifiedRotor;
+
+    fn verified(coverage: f64, agreement: Agreement) -> Verification {
+        let rotor = VerifiedRotor {
+            track: 0,
+            motor: 0,
+            name: "motor 1".to_owned(),
+            speed_rev_s: 60.0,
+            bias_rev_s: 0.0,
+            scatter_rev_s: 0.1,
+            coverage,
+            point_count: 100,
+            points: Vec::new(),
+        };
+        Verification {
+            offset_s: 0.0,
+            is_offset_told: true,
+            is_offset_given: false,
+            better_offset_s: None,
+            agreement,
+            clock_rate_share: None,
+            rotors: vec![rotor],
+            speed_ratio: 1.0,
+            near_ratio: None,
+        }
+    }
+
+    /// A pass of order and clock is no pass of the ±.
+    #[test]
+    fn a_small_plus_minus_is_no_silent_pass() {
+        let verdict = |coverage, agreement| verdict_in_words(&verified(coverage, agreement));
+        assert!(verdict(0.95, Agreement::AsStated).starts_with("passed: order and clock are right"));
+        for (agreement, word) in
+            [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]
+        {
+            let words = verdict(0.59, agreement);
+            assert!(words.starts_with("order and clock: passed") && words.contains("±: not passed"), "{words}");
+            assert!(words.contains(word) && words.contains("only 59 % of the logged speeds"), "{words}");
+            assert!(small_plus_minus(&verified(0.59, agreement)).is_some());
+        }
+        assert_eq!(small_plus_minus(&verified(0.9, Agreement::AsStated)), None);
+        assert!(verdict(0.3, Agreement::Scattered).starts_with("not decided: "));
+        assert_eq!(small_plus_minus(&verified(0.3, Agreement::Scattered)), None);
+    }
 }

@@ -69,7 +69,9 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
         let mass = mass_kg.scaled(1e3);
         match mass.std_uncertainty {
             Some(_) => format!("{} g (k = 2{flights})", with_uncertainty(mass.value, mass.std_uncertainty)),
-            None => format!("{} g (± is not known, because the constant has none)", significant(mass.value, DIGITS)),
+            None => {
+                format!("{} g (its ± is not known, because the constant has no ±)", significant(mass.value, DIGITS))
+            }
         }
     };
     let share = weighed.mass_kg.std_uncertainty.map(|std| COVERAGE_FACTOR * std / weighed.mass_kg.value);

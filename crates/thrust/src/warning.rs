@@ -174,12 +174,20 @@ impl ThrustWarning {
     pub fn is_contradiction(&self) -> bool {
         matches!(
             self,
-            Self::VehicleDoesNotFit { .. }
-                | Self::HeavierTurnedSlower { .. }
+            Self::HeavierTurnedSlower { .. }
                 | Self::LoadsDisagree { .. }
                 | Self::ConstantsDiffer { .. }
                 | Self::ConstantsSplit
-        )
+        ) || self.is_of_other_vehicle()
+    }
+
+    /// Whether the sound is not that of the vehicle, or a mass is ten times too light or too heavy for it: then the constant is of no vehicle.
+    pub fn is_of_other_vehicle(&self) -> bool {
+        match self {
+            Self::VehicleDoesNotFit { .. } => true,
+            Self::MassFarFromKnown { mass_kg, known_kg, .. } => is_shifted_point(mass_kg / known_kg),
+            _ => false,
+        }
     }
 
     /// Advice to the user.
@@ -208,7 +216,7 @@ impl ThrustWarning {
                 "check that it is under the right [[load]]; if it is, look at it with `hovertone speed`"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
-                "check the decimal point of the mass, and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
+                "do not use this constant: check the decimal point and the unit of the mass, and the name of the vehicle"
             }
             Self::MassFarFromKnown { .. } => {
                 "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
@@ -227,7 +235,7 @@ impl ThrustWarning {
                 "do not use this constant: check the masses, units, rotors and the order of the tone, and measure one more load"
             }
             Self::MixedBenchAndHover => {
-                "a rotor alone on a bench has another thrust than in flight: put bench runs and hovers into two experiment files"
+                "at the same speed, a rotor has another thrust on a bench than in flight: put bench runs and hovers into two experiment files"
             }
             Self::SingleLoad => "measure a second load",
             Self::OneRecordingEach { .. } => "record each load five times, if possible: land and start again between",
@@ -238,11 +246,9 @@ impl ThrustWarning {
             Self::NarrowLoadRange(_) => {
                 "C_f is still valid near these forces; to test the law, measure a wider range of forces; `hovertone fit --plan` plans such hovers"
             }
-            Self::OtherLawPreferred { .. } => {
-                "C_f is the factor in F = C_f ω², which simulators use: use it only near the measured speeds"
-            }
+            Self::OtherLawPreferred { .. } => "simulators use F = C_f ω²: use C_f only near the measured speeds",
             Self::ConstantDrifts(Drift { kind: DriftKind::PerRow | DriftKind::PerVolt, .. }) => {
-                "time and voltage do not change the thrust at a given speed, so the stand drifts: zero it between runs, let it warm up, and measure in a random sequence"
+                "neither time nor voltage changes the thrust at a given speed, so it is the stand that drifts: zero it between runs, let it warm up, and measure in a random sequence"
             }
             Self::ConstantDrifts(_) => {
                 "keep height and place, fly the loads in a random sequence, each with an equally full battery"
@@ -258,7 +264,7 @@ impl ThrustWarning {
                 "weigh the vehicle ready to fly, and write mass_kg under [vehicle]: 1 % of error in the mass is 1 % in C_f, and the ± does not include it"
             }
             Self::LoudestRotor => {
-                "where their speeds differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
+                "if their speeds differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
             }
         }
     }
@@ -291,7 +297,7 @@ impl fmt::Display for ThrustWarning {
         match self {
             Self::LoadDoesNotFit { name, is_row, mass_that_fits_kg, mass_that_fits_std_kg, is_left_out } => {
                 f.write_str(&misfit_text(name, *is_row, mass_that_fits_kg.map(|mass_kg| (mass_kg, *mass_that_fits_std_kg))))?;
-                if *is_left_out { f.write_str("; it is left out, because its constant is more than twice or less than half that of the \
+                if *is_left_out { f.write_str("; it is left out: its constant is more than twice, or less than half, the constant of the \
                 others") } else { Ok(()) }
             }
             Self::LoadsDisagree { names, are_rows } => {
@@ -301,7 +307,7 @@ impl fmt::Display for ThrustWarning {
             Self::TrialFarFromOthers { load, recording, thrust_share } => {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };
                 let percent = 100.0 * thrust_share.abs();
-                write!(f, "judged by its speed, {recording} of load \"{load}\" has {percent:.0} % {than} thrust than the others")
+                write!(f, "the rotor speed in {recording} means {percent:.0} % {than} thrust than in the other recordings of load \"{load}\"")
             }
             Self::TrialsInGroups { load, groups_rev_s } => {
                 write!(f, "the recordings of load \"{load}\" form {}", groups_text(groups_rev_s))
@@ -310,7 +316,7 @@ impl fmt::Display for ThrustWarning {
                 f.write_str(&differ_text([least, most], *share, *stated_share))
             }
             Self::TrialsDiffer { load, least, most, thrust_share } => {
-                write!(f, "judged by its speed, {most} of load \"{load}\" has {:.0} % more thrust than {least}", 100.0 * thrust_share)
+                write!(f, "the rotor speeds mean {:.0} % more thrust in {most} than in {least}, but both are of load \"{load}\"", 100.0 * thrust_share)
             }
             Self::HeavierTurnedSlower { heavy, light } => {
                 write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")
@@ -327,15 +333,15 @@ impl fmt::Display for ThrustWarning {
             }
             Self::RowsDoNotFit { names, are_left_out } => {
                 write!(f, "{} rows do not fit the others: {}", names.len(), first_names(names))?;
-                if *are_left_out { f.write_str("; they are left out, because their constants are more than twice or less than half that of \
-                the others") } else { f.write_str("; they are used too") }
+                if *are_left_out { f.write_str("; they are left out: their constants are more than twice, or less than half, the constant of \
+                the others") } else { f.write_str("; the fit uses them too") }
             }
             Self::TrialLeftOut { load, recording } => {
-                write!(f, "{recording} of load \"{load}\" is left out, because its constant is more than twice or less than half that of \
+                write!(f, "{recording} of load \"{load}\" is left out: its constant is more than twice, or less than half, the constant of \
                 the other recordings")
             }
             Self::ConstantsSplit => f.write_str(
-                "half of the constants are more than twice or less than half of the others, and nothing shows which of them are right",
+                "one half of the constants differs from the other half by a factor of two or more, and nothing shows which half is right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
@@ -348,14 +354,14 @@ impl fmt::Display for ThrustWarning {
             Self::EqualLoads { count } => write!(f, "all {count} loads have the same force, or nearly so"),
             Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
             Self::OtherLawPreferred { law, probability } => {
-                write!(f, "{} describes the forces better than F = C_f ω² (probability {:.0} %)", law.formula(), 100.0 * probability)
+                write!(f, "the law {} fits the forces better than F = C_f ω²: its probability is {:.1} %", law.formula(), 100.0 * probability)
             }
             Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {
-                write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside the range of propellers")
+                write!(f, "the thrust coefficient C_T = T/(ρ n² D⁴) is {propeller:.3}, and no propeller has that")
             }
             Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
-                write!(f, "a figure of merit of {figure_of_merit:.3} (\"{name}\") is outside the range of rotors")
+                write!(f, "the figure of merit (ideal power over measured power) is {figure_of_merit:.3} (\"{name}\"), and no rotor has that")
             }
             Self::UncertaintiesIncomplete { stated, of } => {
                 write!(f, "only {stated} of {of} rows have an uncertainty above 0: the ± comes from the scatter of all rows")
@@ -363,8 +369,8 @@ impl fmt::Display for ThrustWarning {
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the mass of the vehicle, {:.1} g, comes from a preset or a model: this vehicle was not weighed", 1e3 * mass_kg)
             }
-            Self::LoudestRotor => f.write_str("the rotors could not be separated: one tone is used for all, that of the loudest or a \
-            mixture of several"),
+            Self::LoudestRotor => f.write_str("the rotors could not be separated: one tone is used for all, from the loudest rotor or from \
+            several"),
         }
     }
 }

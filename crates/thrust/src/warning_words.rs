@@ -17,7 +17,7 @@ pub(crate) fn differ_text([least, most]: [&String; 2], share: f64, stated_share:
         small if small < 0.5 => words,
         percent => {
             format!(
-                "{words}; the stated uncertainties of their forces explain only {percent:.0} % (k = {COVERAGE_FACTOR})"
+                "{words}; the stated uncertainties of the forces (k = {COVERAGE_FACTOR}) explain only {percent:.0} % of difference"
             )
         }
     }
@@ -34,7 +34,10 @@ pub(crate) fn drift_text(drift: &Drift) -> String {
     // two digits of a small drift, which would else be printed as zero
     let decimals = (1.0 - percent.abs().log10().floor()).clamp(3.0, 9.0) as usize;
     let percent = format!("{percent:+.decimals$}").replace('-', "−");
-    format!("the constant drifts by {percent} % {step} ({})", p_value_text(drift.p_value))
+    format!(
+        "the constant drifts by {percent} % {step} (chance of this without a true drift: {})",
+        p_value_text(drift.p_value)
+    )
 }
 
 pub(crate) fn range_text(range: &LoadRange) -> String {
@@ -82,9 +85,9 @@ pub(crate) fn misfit_text(name: &str, is_row: bool, mass_that_fits_kg: Option<(f
     let of = if is_row { format!("{name} of the table") } else { format!("load \"{name}\"") };
     let would = match mass_that_fits_kg {
         Some((mass_kg, Some(std_kg))) => {
-            format!("; {:.1} g ± {:.1} g would", 1e3 * mass_kg, 1e3 * COVERAGE_FACTOR * std_kg)
+            format!("; a mass of {:.1} g ± {:.1} g would fit", 1e3 * mass_kg, 1e3 * COVERAGE_FACTOR * std_kg)
         }
-        Some((mass_kg, None)) => format!("; {:.1} g would", 1e3 * mass_kg),
+        Some((mass_kg, None)) => format!("; a mass of {:.1} g would fit", 1e3 * mass_kg),
         None => String::new(),
     };
     format!("{of} does not fit the others{would}")

@@ -37,7 +37,7 @@ pub enum Contradiction {
         said: Gear,
     },
     /// A tone that the vehicle does not have.
-    #[error("order = {said}, but the rotors of the vehicle \"{vehicle}\" have tones of order {known}")]
+    #[error("order = {said} (lines per turn), but the rotors of the vehicle \"{vehicle}\" have tones of order {known}")]
     Order {
         /// Name of the vehicle in files and flags.
         vehicle: &'static str,

@@ -7,7 +7,7 @@ use hovertone::speed::{
 };
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, MediaWarning, Recording};
-use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord, Wording, significant};
+use hovertone_report::{Answer, Found, Notice, NoticeKind, RecordingFacts, SpeedRecord, Wording, significant};
 use hovertone_vehicle::{AIR_KG_M3, KNOWN_RANGE_MARGIN, Order, THRUST_COEFFICIENT, check_tips};
 use serde::Serialize;
 use serde_json::Value;
@@ -109,7 +109,13 @@ pub fn hear(
     let of_analysis: Vec<&Warning> =
         record.analysis().into_iter().flat_map(|analysis| &analysis.warnings).filter(matters).collect();
     let hints = record.given_facts().hints(&of_analysis);
-    let of_analysis = of_analysis.into_iter().zip(hints).map(|(warning, hint)| Notice::new(warning.to_string(), hint));
+    let of_analysis = of_analysis.into_iter().zip(hints).map(|(warning, hint)| {
+        let kind = match warning {
+            Warning::FitsElsewhere(_) => NoticeKind::AnotherRotorFits,
+            _ => NoticeKind::Other,
+        };
+        Notice::new(warning.to_string(), hint).of_kind(kind)
+    });
     record.notices = notices_of(recording).into_iter().chain(of_analysis).collect();
     record.notices.extend(notice_of_reading(&record).filter(|_| follows_a_tone));
     record.notices.extend(notice_of_one_tone(&record, &config));
@@ -130,13 +136,13 @@ fn notice_of_one_tone(record: &SpeedRecord, config: &Config) -> Option<Notice> {
     }
     let share = record.speed()?.rotors_std_share();
     let text = format!(
-        "one tone is used for all {} rotors. It may come from one rotor alone, and the ± assumes that this rotor differs from their mean \
-         by {:.1} % (standard deviation)",
+        "one tone is used for all {} rotors. It may be the tone of one rotor alone. The ± allows for this: it assumes that this rotor \
+         differs from the mean by {:.1} % (standard deviation)",
         rotors.count,
         100.0 * share
     );
     let hint = match config.method {
-        Method::Harmonic => "to hear each rotor, do not ask for the mean alone (--mean-only, or --method harmonic)",
+        Method::Harmonic => "to hear each rotor, leave --mean-only and --method harmonic out",
         _ => "to hear each rotor, leave --method out",
     };
     (share > 0.0).then(|| Notice::new(text, hint))
@@ -150,8 +156,8 @@ fn notice_of_thrust(record: &SpeedRecord, config: &Config) -> Option<Notice> {
     // on a bench, one rotor carries nothing
     let is_foreign = config.rotors.count > 1 && !THRUST_COEFFICIENT.contains(&coefficient);
     let text = format!(
-        "the vehicle does not hover at {speed_rev_s:.1} rev/s: its diameter, mass and number of rotors mean a thrust coefficient of {} there, \
-         and propellers have {low} to {high}",
+        "the vehicle cannot hover at {speed_rev_s:.1} rev/s: with its diameter, mass and number of rotors, its propellers would need a \
+         thrust coefficient of {}, and propellers have {low} to {high}",
         significant(coefficient, 2)
     );
     let hint = format!("if it hovers in this recording, check {}", record.given_facts().in_words("and"));

@@ -184,7 +184,7 @@ impl Identified {
 
     /// Whether another rotor sounds than that of the vehicle.
     fn is_foreign(&self) -> bool {
-        self.warnings().iter().any(|warning| matches!(warning, ThrustWarning::VehicleDoesNotFit { .. }))
+        self.warnings().iter().any(ThrustWarning::is_of_other_vehicle)
     }
 
     /// The records of all recordings.

@@ -51,9 +51,14 @@ pub(crate) enum FrameLayout {
 pub(super) fn offsets(text: &str) -> Result<(f64, f64), String> {
     let halves = text.split_once("..").or_else(|| text.split_once(':'));
     let limits = halves.and_then(|(low, high)| Some((clock_offset_s(low).ok()?, clock_offset_s(high).ok()?)));
-    limits.filter(|(low_s, high_s)| low_s <= high_s).ok_or_else(|| {
-        "write the smallest and the largest offset as LOW:HIGH in seconds, such as -5:5, or as -0:05..1:10".to_owned()
-    })
+    match limits {
+        Some((low_s, high_s)) if low_s > high_s => {
+            Err(format!("the two numbers are exchanged: write the smaller one first, {high_s}:{low_s}"))
+        }
+        Some(limits) => Ok(limits),
+        None => Err("write the smallest and the largest offset in seconds as LOW:HIGH, such as -5:5; with minutes, write -0:05..1:10"
+            .to_owned()),
+    }
 }
 
 /// The offset of one clock to another: "2.5", or "-0:05".
@@ -78,5 +83,6 @@ mod tests {
         assert!(
             offsets("5").is_err() && offsets("a:b").is_err() && offsets("1:inf").is_err() && offsets("5:1").is_err()
         );
+        assert_eq!(offsets("3:1"), Err("the two numbers are exchanged: write the smaller one first, 1:3".to_owned()));
     }
 }

@@ -37,8 +37,8 @@ const OTHER_ROTOR: &str = "other_rotor";
 const HARDLY_HEARD: &str = "tone_hardly_heard";
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
-const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, but the known speed is that of one; record one rotor that \
-runs alone";
+const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, but the known speed is that of one rotor; record one rotor \
+that runs alone";
 const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 
 /// The meaning of the arguments.
@@ -130,15 +130,10 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress)
         );
     }
     if let Some(record) = record.as_ref().filter(|record| record.is_ambiguous()) {
-        let known_hz = match reference {
-            Reference::Speed { rpm, .. } => RotorSpeed::from_rpm(rpm).tone_hz(record.order),
-            Reference::Tone { hz, .. } => hz,
-        };
-        let why = format!(
-            "several rotor speeds explain this sound; if the known speed is right, its tone lies in --band {}",
-            band_around(known_hz)
+        return undecided(
+            AMBIGUOUS,
+            format!("several rotor speeds explain this sound; {}", settled_by(plan, record.order)),
         );
-        return undecided(AMBIGUOUS, why);
     }
     let speed = record.as_ref().and_then(|record| {
         let speed = record.speed()?;
@@ -172,9 +167,31 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress)
     }
 }
 
-/// The band around a tone, as it is typed.
+/// What settles the speed, where several are possible.
+fn settled_by(plan: &Plan, order: Order) -> String {
+    let tone_hz = match plan.reference {
+        // without blades, nothing says how many lines per turn the band would hold
+        _ if plan.discovery.is_some_and(|discovery| discovery.known.blade_count.is_none()) => {
+            return "count the blades, and give --blades N".to_owned();
+        }
+        Reference::Speed { rpm, .. } if RotorSpeed::from_rpm(rpm).rev_s() < plan.config.tone.speed_min.rev_s() => {
+            let slowest_rpm = plan.config.tone.speed_min.rpm();
+            return format!(
+                "the known speed, {rpm} rpm, is none of them, as hovertone hears only rotors of {slowest_rpm:.0} rpm or more; check the known speed; \
+                 if it was in turns per second, give --tachometer-rpm {}",
+                60.0 * rpm
+            );
+        }
+        Reference::Speed { rpm, .. } => RotorSpeed::from_rpm(rpm).tone_hz(order),
+        Reference::Tone { hz, .. } => hz,
+    };
+    format!("if the known number is right, the tone lies near {tone_hz:.0} Hz: give --band {}", band_around(tone_hz))
+}
+
+/// The band around a tone, as it is typed: in whole Hz where it is wide.
 fn band_around(tone_hz: f64) -> String {
-    format!("{:.0}:{:.0}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
+    let decimals = if BAND_SHARE * tone_hz < 2.0 { 2 } else { 0 };
+    format!("{:.decimals$}:{:.decimals$}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
 }
 
 /// The warning that the lines are those of a rotor with other blades, where there is one: a speed that agrees proves no order then.
@@ -319,4 +336,20 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
 fn check_known(name: &'static str, value: f64, allowed: RangeInclusive<f64>) -> Result<(), Failure> {
     check_range(name, value, *allowed.start(), *allowed.end())
         .map_err(|error| Failure::usage(error.to_string(), "check its unit: of a tachometer rpm, of a tone Hz"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A band that is advised must not be refused.
+    #[test]
+    fn an_advised_band_has_an_upper_edge_above_its_lower_edge() {
+        for tone_hz in [1.0, 3.3, 9.7, 40.0, 200.0, 4100.0] {
+            let band = band_around(tone_hz);
+            let edges: Vec<f64> = band.split(':').filter_map(|edge| edge.parse().ok()).collect();
+            assert!(edges[0] < tone_hz && tone_hz < edges[1], "{band}");
+        }
+        assert_eq!(band_around(200.0), "195:205");
+    }
 }

@@ -210,7 +210,7 @@ impl Beside {
     fn in_words(&self) -> String {
         checked(&self.truth, &self.identified).map_or(String::new(), |checked| {
             format!(
-                "the identified model, flown beside the true one through another flight, has speeds that differ by {:.2} % rms; they change by {:.2} %",
+                "in another flight, the speeds of the identified model differ from the true speeds by {:.2} % (rms); the speeds themselves change by {:.2} % (rms)",
                 100.0 * checked.rms_share,
                 100.0 * checked.change_share
             )

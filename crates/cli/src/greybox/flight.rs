@@ -10,7 +10,7 @@ use crate::vehicles::not_in_flight_model;
 use hovertone::speed::{Config, OtherRotor};
 use hovertone_dynamics::{
     ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, HeardLines, LineOrders,
-    LoopInputs, MotorVolts, SoundConfig, SoundFit, SpeedObservation, SpeedPrediction, grey_box_from_sound,
+    LoopInputs, MotorVolts, SoundConfig, SoundFit, SpeedObservation, SpeedPrediction, checked, grey_box_from_sound,
     grey_box_from_speeds, log_offset_s, observations_of_rows, speeds_along,
 };
 use hovertone_logs::{ColumnNames, LoggedControl, MissingControl, RateAxes, control_from_log};
@@ -28,6 +28,14 @@ const LOGGED_STD_SHARE: f64 = 2e-4;
 const CLOCK_RIGHT_S: f64 = 0.051;
 /// Beyond the range that the vehicle's numbers predict, the rotors are sought by this share. *Decision.*
 const RANGE_SHARE: f64 = 0.15;
+
+/// Smallest change of a command that is a manoeuvre, of 1 for the whole stick. *Decision.*
+const COMMAND_CHANGE_MIN: f64 = 0.02;
+/// Smallest rms change of the speeds, as a share, from which a model can be found: half of the last digit of most telemetry. *Decision.*
+const SPEED_CHANGE_MIN: f64 = 2e-4;
+/// What to fly where a flight shows no model.
+const FLY_DOUBLETS: &str =
+    "fly doublets for a minute, in roll, pitch, yaw and climb: a command to one side, then to the other";
 
 /// Recording and log of a flight.
 pub(crate) struct FlightFiles {
@@ -121,12 +129,14 @@ impl FlownLog {
         let control =
             control_from_log(open_stream(path, THE_LOG)?, names, axes).map_err(|error| log_failure(&error, path))?;
         let refused = |what: &str| {
-            let hint = "`hovertone greybox --help` lists the columns it reads, `hovertone log FILE --signals` the columns of a log";
+            let hint = "`hovertone greybox --help` lists the columns that are needed; `hovertone log FILE --signals` lists the columns of a log";
             Failure::Usage { what: what.to_owned(), hint: hint.to_owned(), path: Some(path.to_owned()) }
         };
         let beyond = control.command.iter().flatten().flatten().find(|command| command.abs() > 1.0 + 1e-9);
         if let Some(command) = beyond {
-            return Err(refused(&format!("a command of this log is {command}, and commands are within ±1")));
+            return Err(refused(&format!(
+                "a command of this log is {command}, but commands must be from −1 to 1, the whole stick"
+            )));
         }
         let speeds_rad_s = speeds_rad_s(&control);
         let log = control_log(control.clone(), offset_s);
@@ -137,6 +147,19 @@ impl FlownLog {
         }
         let left_out = control.missing.iter().map(left_out).collect();
         Ok(Self { log, inputs, speeds_rad_s, loss: control.loss, moved_s: 0.0, left_out })
+    }
+
+    /// The failure of a flight in which no command changes; `None` where one does.
+    fn without_doublets(&self, path: &Path) -> Option<Failure> {
+        let range = |commands: &[f64]| {
+            let finite = || commands.iter().copied().filter(|command| command.is_finite());
+            finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min)
+        };
+        let is_flown = self.log.command.iter().flatten().any(|commands| range(commands) >= COMMAND_CHANGE_MIN);
+        let what = format!(
+            "no doublets were flown: no command of this log changes by {COMMAND_CHANGE_MIN} or more (1 is the whole stick)"
+        );
+        (!is_flown).then(|| Failure::failed(what, FLY_DOUBLETS, path))
     }
 
     /// Moves the clock of the log to where the sound follows the log. Returns whether it follows it anywhere.
@@ -153,7 +176,7 @@ impl FlownLog {
 
 fn left_out(missing: &MissingControl) -> Notice {
     let MissingControl { control_loop, what, hint } = missing;
-    Notice::new(format!("{} is left out of the model: the log lacks {what}", control_loop.name()), *hint)
+    Notice::new(format!("the model has no {}: the log lacks {what}", control_loop.name()), *hint)
 }
 
 /// The failure of a log in which every loop lacks something.
@@ -162,7 +185,7 @@ fn without_loops(missing: &[MissingControl], path: &Path) -> Failure {
     hints.dedup();
     let lacks: Vec<String> =
         missing.iter().map(|missing| format!("{} lacks {}", missing.control_loop.name(), missing.what)).collect();
-    let what = format!("this log has no command together with the angle or rate that follows it: {}", lacks.join(", "));
+    let what = format!("this log has no command together with the angle or rate that follows it: {}", lacks.join("; "));
     Failure::failed(what, hints.join("; "), path)
 }
 
@@ -227,37 +250,58 @@ pub(crate) fn fit_of(
     progress: &Progress,
 ) -> Result<Heard, Failure> {
     let start = vehicle.start();
-    let stopped = |stop: GreyBoxStop| {
+    let without_doublets = flown.without_doublets(&files.log);
+    let stopped = |stop: GreyBoxStop, without_doublets: Option<Failure>| {
+        if let Some(failure) = without_doublets.filter(|_| stop == GreyBoxStop::NotConverged) {
+            return failure;
+        }
         let what = match stop {
             GreyBoxStop::NotConverged => format!("no model of the vehicle \"{}\" explains this flight", vehicle.id()),
             _ => stop.to_string(),
         };
         let hint = match stop {
             GreyBoxStop::NotConverged => {
-                "is --vehicle right, and --log-axes? If both are, fly a minute of doublets about all axes"
+                "is --vehicle right, and --log-axes? If both are right, fly doublets for a minute, in roll, pitch, yaw and climb"
             }
-            GreyBoxStop::TooShort { .. } => "fly doublets about all axes for a minute, and record and log all of it",
+            GreyBoxStop::TooShort { .. } => {
+                "fly doublets for a minute, in roll, pitch, yaw and climb; record and log the whole flight"
+            }
             GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
-                "give the time between their clocks with --log-offset-s, and the log of this recording; fly doublets for a minute"
+                "give the log of this recording; if the clocks of both differ, give --log-offset-s; fly doublets for a minute"
             }
-            _ => "log commands and attitude over a minute of doublets about all axes",
+            _ => "fly doublets for a minute, in roll, pitch, yaw and climb; log the commands and the angles",
         };
         Failure::Usage { what, hint: hint.to_owned(), path: Some(files.log.clone()) }
     };
     match &files.recording {
         None => {
             let observations = logged_observations(flown, files)?;
-            let fit = grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default())
-                .map_err(stopped)?;
+            let fit = grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default());
+            let (fit, without_doublets) = match fit {
+                Ok(fit) => (fit, without_doublets),
+                Err(stop) => return Err(stopped(stop, without_doublets)),
+            };
+            let change = checked(&observations, &fit.prediction(&flown.inputs)).map(|checked| checked.change_share);
+            if let Some(failure) = without_doublets {
+                return Err(failure);
+            }
+            if change.is_some_and(|change| change < SPEED_CHANGE_MIN) {
+                let what = "the rotor speeds of this log never change, so they show no model";
+                return Err(Failure::failed(what, FLY_DOUBLETS, &files.log));
+            }
             Ok(Heard { fit, observations, names_nats: None, better: None })
         }
         Some(recording) => {
             let lines = heard_lines(recording, flown, &start, vehicle, hearing, progress)?;
+            if let Some(failure) = without_doublets {
+                return Err(failure);
+            }
             if !flown.align(&lines, &start) {
                 return Err(not_followed(&files.log));
             }
             let better = better_rotor(recording, &vehicle.config()?, hearing, progress)?;
-            let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).map_err(stopped)?;
+            let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default())
+                .map_err(|stop| stopped(stop, None))?;
             let SoundFit { fit, observations, names_nats } = heard;
             Ok(Heard { fit, observations, names_nats: Some(names_nats), better })
         }
@@ -266,8 +310,8 @@ pub(crate) fn fit_of(
 
 /// The failure of a log that the sound does not follow.
 fn not_followed(log: &Path) -> Failure {
-    let what = "the sound does not follow this log: the predicted speeds do not fit it, even where its clock is shifted by up to 10 s";
-    let hint = "give the recording and the log of one flight of doublets; check --vehicle; where the clocks differ by more, give --log-offset-s";
+    let what = "the sound does not follow this log, at any offset of their clocks up to 10 s";
+    let hint = "give the recording and the log of the same flight; check --vehicle; if the clocks differ by more than 10 s, give --log-offset-s";
     Failure::failed(what, hint, log)
 }
 

@@ -115,8 +115,8 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         (
             experiment.propeller_diameter_m.is_some(),
             match experiment.config.known.shaft_speed {
-                Some(_) => "the diameter of the propellers is not known: C_f needs none, but the thrust coefficient C_T is left out",
-                None => "the diameter of the propellers is not known: with it, half and double the speed can be ruled out, and C_T needs it",
+                Some(_) => "the diameter of the propellers is not known: the thrust constant C_f does not need it, but the thrust coefficient C_T is left out",
+                None => "the diameter of the propellers is not known: with it, hovertone can rule out half and double of the true speed; C_T needs it too",
             },
             "write propeller_diameter_m under [vehicle]; without an experiment file, give --diameter-m",
         ),
@@ -127,7 +127,7 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         ),
         (
             experiment.air.is_some(),
-            "the density of the air is not known: C_f needs none, but the thrust coefficient C_T is left out",
+            "the density of the air is not known: the thrust constant C_f does not need it, but the thrust coefficient C_T is left out",
             "write [air] with temperature_c and pressure_hpa in an experiment file",
         ),
         (loads == 1 || loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),

@@ -25,6 +25,7 @@ use screen::{Key, Screen};
 use source::LiveSound;
 use std::io::{IsTerminal, stdout};
 use std::time::Duration;
+use summary::LiveSummary;
 use view::View;
 
 /// Slowest and fastest play.
@@ -57,7 +58,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         (false, false) => Output::Screen(Box::new(Screen::open()?), Box::new(View::new(sound.name(), advice))),
     };
     let pace = Pace::new(arguments.speed);
-    let (mut has_told, mut too_fast) = (false, None);
+    let (mut summary, mut too_fast) = (LiveSummary::default(), None);
     while let Some(samples) = sound.next_block()? {
         for mut rest in samples.chunks(block_samples.max(1)) {
             while !rest.is_empty() {
@@ -67,7 +68,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
                 if is_reviewed {
                     listener.review().map_err(unheard)?;
                 }
-                has_told |= arrived.is_some_and(|speed| speed.status == LiveStatus::Ok);
+                arrived.iter().for_each(|speed| summary.add(speed));
                 too_fast = too_fast.or_else(|| tips_too_fast(arguments.known.diameter_m, &arrived?));
                 let wait = pace.time_left(listener.heard_s());
                 if !tell(&mut output, arrived, is_reviewed, wait, &mut listener, terminal)? {
@@ -81,7 +82,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         terminal.flush()?;
     }
     sound.notices().iter().chain(&too_fast).for_each(|notice| terminal.warning(notice, ""));
-    Ok(if has_told { Ending::Done } else { Ending::Incomplete })
+    Ok(if summary.is_settled() { Ending::Done } else { Ending::Incomplete })
 }
 
 /// That the blade tips would be too fast at a live speed.

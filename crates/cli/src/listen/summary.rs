@@ -13,6 +13,8 @@ pub(crate) struct LiveSummary {
     settled_count: usize,
     ambiguous_count: usize,
     listening_count: usize,
+    /// Whether the last speed that was told is one of several.
+    is_last_ambiguous: bool,
     sum_rev_s: f64,
     sum_std_rev_s: f64,
     /// Slowest and fastest.
@@ -27,15 +29,25 @@ impl LiveSummary {
         match (speed.status, speed.speed_rev_s, speed.std_uncertainty_rev_s) {
             (LiveStatus::Ok, Some(speed_rev_s), Some(std_rev_s)) => {
                 self.settled_count += 1;
+                self.is_last_ambiguous = false;
                 self.sum_rev_s += speed_rev_s;
                 self.sum_std_rev_s += std_rev_s;
                 let (slowest, fastest) = self.range_rev_s.unwrap_or((speed_rev_s, speed_rev_s));
                 self.range_rev_s = Some((slowest.min(speed_rev_s), fastest.max(speed_rev_s)));
             }
-            (LiveStatus::Ambiguous, ..) => self.ambiguous_count += 1,
+            (LiveStatus::Ambiguous, ..) => {
+                self.ambiguous_count += 1;
+                self.is_last_ambiguous = true;
+            }
             (LiveStatus::Listening, ..) => self.listening_count += 1,
             _ => {}
         }
+    }
+
+    /// Whether one speed was told, and stayed the only one: what a later part of the sound leaves open for as long a time is open, as it is for
+    /// `hovertone speed`.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.settled_count > 0 && !(self.is_last_ambiguous && self.ambiguous_count >= self.settled_count)
     }
 
     /// The mean speed, and how long it was heard; `None` if there was no sound.
@@ -50,7 +62,7 @@ impl LiveSummary {
         }
         let end_s = fixed(self.end_s, 1);
         let part_s = |count: usize| fixed(count as f64 / self.count as f64 * self.end_s, 1);
-        let mean = self.range_rev_s.map(|(slowest_rev_s, fastest_rev_s)| {
+        let mean = self.range_rev_s.filter(|_| self.is_settled()).map(|(slowest_rev_s, fastest_rev_s)| {
             let heard_s = part_s(self.settled_count);
             if fastest_rev_s > ONE_HOVER_FACTOR * slowest_rev_s {
                 let (slowest, fastest) = (fixed(slowest_rev_s, 1), fixed(fastest_rev_s, 1));
@@ -65,12 +77,15 @@ impl LiveSummary {
         let mut words = match mean {
             Some(mean) => mean,
             None if self.listening_count == self.count => format!("{end_s} s are too short for a first speed"),
+            None if self.settled_count > 0 => {
+                format!("no single speed: in {} s of {end_s} s one speed seemed right", part_s(self.settled_count))
+            }
             None if self.ambiguous_count > 0 => format!("no single speed was heard in {end_s} s"),
             None => format!("no speed was heard in {end_s} s"),
         };
         if self.ambiguous_count > 0 {
             words += &format!("; for {} s several speeds are possible", part_s(self.ambiguous_count));
-            if self.settled_count == 0 {
+            if !self.is_settled() {
                 words += &format!("; to find the right one, {advice}");
             }
         }
@@ -131,5 +146,10 @@ mod tests {
         assert_eq!(of_status(&[Listening, Ambiguous, Ambiguous]), none);
         let some = "mean: 60.00 ± 0.20 rev/s (k = 2), from 1.0 s of 3.0 s; for 1.0 s several speeds are possible\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ok]), some);
+        // what the later sound leaves open is open
+        let open = "no single speed: in 1.0 s of 3.0 s one speed seemed right; for 1.0 s several speeds are possible; to find the right one, \
+        give --rotors\n";
+        assert_eq!(of_status(&[Listening, Ok, Ambiguous]), open);
+        assert!(of_status(&[Ok, Ok, Ambiguous]).starts_with("mean: 60.00"));
     }
 }

@@ -71,7 +71,10 @@ fn tables_of_other_languages_are_told_what_to_change() {
     let german = "Drehzahl (U/min);Schub (g)\n3000;112,5\n4000;201,3\n";
     fs::write(&table, german).unwrap();
     refused_with(&["fit", text(&table)], &["no column holds a speed", "rename its header, as in speed_rpm"]);
-    refused_with(&["log", text(&table)], &["no column holds the time", "rename the header of the times", "--column"]);
+    refused_with(
+        &["log", text(&table)],
+        &["no column has a name for the time", "rename the header of the times", "--column"],
+    );
     let wide: Vec<u8> = german.encode_utf16().flat_map(u16::to_le_bytes).collect();
     fs::write(&table, [&b"\xff\xfe"[..], &wide].concat()).unwrap();
     let said = hovertone(&["fit", text(&table)]).ends_with(1).stderr;
@@ -163,7 +166,7 @@ fn a_rotor_as_steady_as_the_mains_is_not_said_to_be_hum() {
     let sound = folder.path().join("a.wav");
     write_hover(&sound, steady_hover("iris", RotorSpeed::from_rev_s(60.0), 6.0));
     let said = hovertone(&["speed", text(&sound), "--blades", "2", "--rotors", "1"]).ends_with(3).stderr;
-    assert!(said.contains("mains hum, or a rotor that turns as steadily"), "{said}");
+    assert!(said.contains("mains hum (from the power supply), or a rotor that turns as steadily"), "{said}");
     assert!(said.contains("record it at another throttle"), "{said}");
 }
 

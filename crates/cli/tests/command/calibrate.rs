@@ -1,6 +1,8 @@
 //! The recorder's clock and the order, against one known speed.
 
-use crate::testkit::{Run, hovertone, refused_with, steady_bench, steady_hover, text, write_hover, write_wav};
+use crate::testkit::{
+    Run, hovertone, recordings, refused_with, steady_bench, steady_hover, text, write_hover, write_wav,
+};
 use hovertone_sim::HoverSettings;
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
@@ -291,4 +293,22 @@ fn a_silent_recording_is_said_to_be_silent() {
     write_wav(&sound, &[0.0; 96_000], 24_000);
     let run = hovertone(&["calibrate", text(&sound), "--true-hz", "440"]).ends_with(3);
     assert!(run.stderr.contains("silence.wav: the recording is silent; check the microphone."), "{}", run.stderr);
+}
+
+/// The advice for a sound with several possible speeds can be followed: it asks for blades where none are given, and names no empty band.
+#[test]
+fn an_ambiguous_sound_is_answered_with_flags_that_are_not_refused() {
+    let Some(real) = recordings("real") else { return };
+    let sound = real.join("HELICOPTER_007.flac");
+    let said = |more: &[&str]| hovertone(&[&["calibrate", text(&sound)], more].concat()).ends_with(3).stderr;
+    let slow = said(&["--blades", "2", "--tachometer-rpm", "100"]);
+    assert!(slow.contains("100 rpm, is none of them") && slow.contains("--tachometer-rpm 6000"), "{slow}");
+    assert!(!slow.contains("--band"), "{slow}");
+    let known = said(&["--blades", "2", "--tachometer-rpm", "4500"]);
+    assert!(known.contains("give --band 146:154"), "{known}");
+    let followed =
+        hovertone(&["calibrate", text(&sound), "--blades", "2", "--tachometer-rpm", "4500", "--band", "146:154"]);
+    assert!([0, 3].contains(&followed.code), "{}", followed.stderr);
+    let without_blades = said(&["--tachometer-rpm", "6000"]);
+    assert!(without_blades.contains("give --blades N") && !without_blades.contains("--band"), "{without_blades}");
 }

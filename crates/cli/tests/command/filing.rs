@@ -28,8 +28,16 @@ fn a_mass_that_is_not_the_vehicles_is_asked_about() {
         words.iter().for_each(|word| assert!(check.stderr.contains(word), "{word}: {}", check.stderr));
     }
     let load = format!("4.13={}", text(&wav));
-    let run = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(0);
+    let run = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(3);
     assert!(run.stderr.contains("weighs 4130 g, 10 times"), "{}", run.stderr);
+    assert!(run.stdout.contains("do not use this constant: "), "{}", run.stdout);
+    let load = format!("0.0413={}", text(&wav));
+    let run = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(3);
+    assert!(run.stderr.contains("weighs 41.3 g, 0.10 times"), "{}", run.stderr);
+    assert!(run.stdout.contains("do not use this constant: "), "{}", run.stdout);
+    // a mass that only differs from the vehicle's is used, with a warning
+    let load = format!("1.0={}", text(&wav));
+    hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(0);
     let load = format!("462g={}", text(&wav));
     let usual = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load, "--check"]).ends_with(0);
     assert!(!usual.stderr.contains(" times "), "{}", usual.stderr);

@@ -84,7 +84,7 @@ fn what_is_no_flight_is_refused_in_one_line() {
     };
     lacks(&short, &["no speeds of four rotors", "give the recording before the log"]);
     let wild = log("wild.csv", &format!("{head}{}", rows("7")));
-    refused_with(&["greybox", &wild, "--vehicle", "ardrone"], &["within ±1"]);
+    refused_with(&["greybox", &wild, "--vehicle", "ardrone"], &["a command of this log is 7", "from −1 to 1"]);
     for flag in ["--channel", "--log-offset-s", "--clock-correction-ppm"] {
         let words = [&format!("{flag} belongs to a recording"), "hint: leave"];
         refused_with(&["greybox", &short, "--vehicle", "ardrone", flag, "1"], &words);
@@ -97,11 +97,21 @@ fn what_is_no_flight_is_refused_in_one_line() {
     refused_with(&["greybox", &short, "--vehicle", "ardron"], &["did you mean \"ardrone\"?"]);
     let turning = format!("{head},speed_1_rad_s,speed_2_rad_s,speed_3_rad_s,speed_4_rad_s");
     let few = (0..30).map(|row| format!("\n0.{row:02},0,0,300,300,300,300")).collect::<String>();
-    let few = log("few.csv", &(turning + &few));
+    let few = log("few.csv", &(turning.clone() + &few));
     refused_with(
         &["greybox", &few, "--vehicle", "ardrone"],
         &["the flight is too short: 0.3 s hold 29 speeds, and 2 s or more are needed"],
     );
+    // neither commands nor speeds that never change show a model
+    let long = |command: fn(u32) -> f64| {
+        let row = |row: u32| format!("\n{}.{},{},0,300,300,300,300", row / 10, row % 10, command(row));
+        turning.clone() + &(0..300).map(row).collect::<String>()
+    };
+    let steady = log("steady.csv", &long(|_| 0.0));
+    lacks(&steady, &["no doublets were flown", "fly doublets for a minute"]);
+    let moved = log("moved.csv", &long(|row| 0.3 * f64::from(row / 5 % 2)));
+    let run = hovertone(&["greybox", &moved, "--vehicle", "ardrone"]);
+    assert!(run.code != 0 && run.stdout.is_empty(), "{}{}", run.stdout, run.stderr);
 }
 
 #[test]

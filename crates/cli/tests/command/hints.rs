@@ -30,9 +30,15 @@ fn a_log_of_another_clock_is_answered_with_the_flag_for_it() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("a.wav");
     write_noise(&sound, 3.0);
-    let rows = (0..60).map(|row| format!("{}.{},0,0\n", 1000 + row / 10, row % 10)).collect::<String>();
+    let row = |row: u32| format!("{}.{},{},0\n", 1000 + row / 10, row % 10, 0.3 * f64::from(row / 5 % 2));
+    let rows = (0..60).map(row).collect::<String>();
     let log = written(folder.path(), "log.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &rows));
     let words = ["does not follow this log", "--log-offset-s"];
+    failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
+    // a log without doublets is not to blame
+    let steady = (0..60).map(|row| format!("0.{row:02},0,0\n")).collect::<String>();
+    let log = written(folder.path(), "steady.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &steady));
+    let words = ["no doublets were flown", "fly doublets for a minute"];
     failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
 }
 

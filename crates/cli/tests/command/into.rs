@@ -135,10 +135,16 @@ fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
     }
     fs::write(&model, IRIS.replace("theirs", "5.84e-6 is the maker's")).unwrap();
     let said = export(&results, &["--into", text(&model), "-o", text(&folder.path().join("copy.sdf"))]).ends_with(0);
-    assert!(!said.stderr.contains("from before"), "a line that is changed is shown: {}", said.stderr);
+    assert!(!said.stderr.contains("old number"), "a line that is changed is shown: {}", said.stderr);
     fs::write(&model, IRIS.replace("from PX4", "from PX4: 5.84e-6")).unwrap();
     let said = export(&results, &["--into", text(&model)]).ends_with(0);
-    assert!(said.stderr.contains("line 2 still has a number from before"), "{}", said.stderr);
+    assert!(said.stderr.contains("line 2 still has the old number: --into changes no comments"), "{}", said.stderr);
+    let twice = IRIS.replace("from PX4", "from PX4: 5.84e-6");
+    fs::write(&model, twice.trim_end().to_owned() + "\n<!-- 5.84e-6, measured in May -->\n").unwrap();
+    let (said, last) = (export(&results, &["--into", text(&model)]).ends_with(0), twice.trim_end().lines().count() + 1);
+    assert!(said.stderr.contains(&format!("lines 2 and {last} still have the old number")), "{}", said.stderr);
+    fs::write(&model, twice).unwrap();
+    export(&results, &["--into", text(&model)]).ends_with(0);
     fs::write(&model, &after).unwrap();
     let again = export(&results, &["--into", text(&model)]).ends_with(0);
     assert!(again.stdout.is_empty() && again.stderr.contains("nothing to change"), "{}", again.stderr);
@@ -220,6 +226,7 @@ fn a_constant_that_changes_by_more_than_a_factor_of_two_is_asked_about() {
         fs::write(&model, IRIS.replace("5.84e-06", constant)).unwrap();
         export(&results, &["--into", text(&model)]).ends_with(0).stderr
     };
-    assert!(!said("5.84e-06").contains("as large as before"));
-    assert!(said("5.84e-08").contains("as large as before (hint: are the results and the model of one vehicle"));
+    assert!(!said("5.84e-06").contains("times the old constant"));
+    let words = "times the old constant of the model (hint: check that results and model are of the same vehicle";
+    assert!(said("5.84e-08").contains(words));
 }

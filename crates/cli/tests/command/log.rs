@@ -23,7 +23,21 @@ fn a_log_is_listed_for_people_and_for_programs() {
     }
     assert!(run.stderr.is_empty() && !run.stdout.contains("note"), "{}", run.stdout);
     let names = hovertone(&["log", &log, "--signals"]).ends_with(0).stdout;
-    assert!(names.contains("rotor1_rpm (rev/s), motor1_pwm, note"), "{names}");
+    for line in ["\n  table.rotor1_rpm  (rev/s)\n", "\n  table.motor1_pwm\n", "\n  table.note\n"] {
+        assert!(names.contains(line), "{line}: {names}");
+    }
+    // each printed name can be pasted
+    let (out, pasted) =
+        (folder.path().join("out.csv"), names.lines().filter_map(|line| line.trim().split("  ").next()));
+    let mut pasted = pasted.filter(|name| name.starts_with("table.")).peekable();
+    assert!(pasted.peek().is_some(), "{names}");
+    for name in pasted {
+        hovertone(&["log", &log, "--signal", name, "-o", text(&out), "--force"]).ends_with(0);
+    }
+    refused_with(
+        &["log", &log, "--signal", "rotor1_rpm", "-o", text(&out), "--force"],
+        &["no signal \"rotor1_rpm\"", "write --signal table.rotor1_rpm"],
+    );
     let line = hovertone(&["log", "--json", &log]).ends_with(0).json_lines().remove(0);
     assert_eq!(
         (&line["format"], &line["has_rotor_speed"], &line["lost_bytes"]),

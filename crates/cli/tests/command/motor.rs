@@ -170,7 +170,7 @@ fn what_is_no_log_is_refused_and_the_others_are_read() {
     let run = hovertone(&["motor", "--json", &sound, &log]).ends_with(1);
     assert_eq!(run.json_lines().len(), 1);
     let other = written(folder.path(), "other.csv", "time_s,x_m\n0,1\n1,2\n");
-    refused_with(&["motor", &other], &["no columns hold motors", "x_m"]);
+    refused_with(&["motor", &other], &["no column is a motor", "x_m"]);
 }
 
 #[test]
@@ -245,7 +245,7 @@ fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
     let shifted = ["motor", &wav, "--blades", "2", "--commands", &commands, "--offset", "2"];
     let shifted = hovertone(&shifted).ends_with(0);
     assert!(!shifted.stdout.contains("saturated"), "{}", shifted.stdout);
-    assert!(shifted.stderr.contains("the steps agree at an offset of about 0.0"), "{}", shifted.stderr);
+    assert!(shifted.stderr.contains("they change at the same times with --offset 0.0"), "{}", shifted.stderr);
 }
 
 #[test]

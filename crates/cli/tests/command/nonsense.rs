@@ -283,7 +283,7 @@ fn a_weighed_mass_is_that_of_a_vehicle() {
     // without a ± of the constant the mass has none, and says so
     let arguments = weigh("2.83e-5", &ardrone);
     let words = hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0).stdout;
-    assert!(words.contains("mass as flown: 413 g (± is not known"), "{words}");
+    assert!(words.contains("mass as flown: 413 g (its ± is not known"), "{words}");
 }
 
 #[test]
@@ -324,7 +324,7 @@ fn a_thrust_that_no_propeller_has_is_said() {
         hovertone(&["fit", text(&table)]).ends_with(0).stderr
     };
     // 5 N at 8000 rpm, and the same in gram-force under the name of newtons
-    let words = "no propeller has such a thrust at such a speed";
+    let words = "no propeller has this thrust at this speed";
     assert!(!run("rpm,thrust_n\n4000,1.26\n6000,2.81\n8000,5.01\n").contains(words));
     let gram_force = run("rpm,thrust_n\n4000,128\n6000,287\n8000,511\n");
     assert!(gram_force.contains(words) && gram_force.contains("check the units"), "{gram_force}");

@@ -123,8 +123,10 @@ fn an_existing_file_is_replaced_only_by_force() {
     fs::write(&results, RESULTS).unwrap();
     let (track, png, model) =
         (folder.path().join("thesis.csv"), folder.path().join("thesis.png"), folder.path().join("thesis.sdf"));
+    let flight = folder.path().join("flight.wav");
+    write_hover(&flight, steady_hover("ardrone", RotorSpeed::from_rev_s(60.0), 3.0));
     let runs: [(&Path, Vec<&str>); 3] = [
-        (&track, vec!["speed", "--blades", "2", text(&wav), "--track", text(&track)]),
+        (&track, vec!["speed", "--vehicle", "ardrone", text(&flight), "--track", text(&track)]),
         (&png, vec!["spectrogram", "--blades", "2", text(&wav), "-o", text(&png)]),
         (&model, vec!["export", text(&results), "--to", "gazebo", "-o", text(&model)]),
     ];
@@ -141,6 +143,11 @@ fn an_existing_file_is_replaced_only_by_force() {
     fs::write(&png, "precious").unwrap();
     hovertone(&["spectrogram", "--blades", "2", text(&short), "-o", text(&png), "--force"]).ends_with(3);
     assert_eq!(fs::read(&png).unwrap(), b"precious");
+    // and so does what ends without a track
+    fs::write(&track, "precious").unwrap();
+    let noise = hovertone(&["speed", "--blades", "2", text(&wav), "--track", text(&track), "--force"]).ends_with(3);
+    assert!(noise.stderr.contains("--track wrote no file: no rotor was heard"), "{}", noise.stderr);
+    assert_eq!(fs::read(&track).unwrap(), b"precious");
     let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().contains("unfinished")), "{left:?}");
 }

@@ -1,6 +1,7 @@
 //! Slips of units and names: each is taken as meant where a unit is typed, and refused with the plausible slip where none is.
 
-use crate::testkit::{hovertone, hovertone_with, refused_with, text, write_noise};
+use crate::testkit::{hovertone, hovertone_with, refused_with, steady_hover, text, write_hover, write_noise};
+use hovertone_vehicle::RotorSpeed;
 use std::fs;
 
 #[test]
@@ -222,4 +223,72 @@ fn what_is_wrong_in_a_word_is_named_with_what_to_write() {
     let columns = ["--column", "Zeit=time_s", "--column", "Drehzahl=rotor1_rpm"];
     assert!(said.contains(&format!("hovertone log {log} {}", columns.join(" "))), "{said}");
     hovertone(&[&["log", log], &columns[..]].concat()).ends_with(0);
+    // the throttle is no speed, wherever it stands
+    let (gas, first) = (folder.path().join("gas.csv"), "Gas;Zeit;Drehzahl\n".to_owned());
+    fs::write(&gas, first + "10,5;0,00;3600,0\n11,5;0,01;3610,5\n").unwrap();
+    let said = hovertone(&["log", text(&gas)]).ends_with(2).stderr;
+    assert!(said.contains(&columns.join(" ")) && !said.contains("Gas="), "{said}");
+    fs::write(&gas, "Zeit;Gas\n0,00;10,5\n0,01;11,5\n").unwrap();
+    let said = hovertone(&["log", text(&gas)]).ends_with(2).stderr;
+    assert!(said.contains("--column Zeit=time_s") && !said.contains("Gas="), "{said}");
+}
+
+#[test]
+fn a_table_without_names_and_a_unit_that_stands_alone_are_understood() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    fs::write(&table, "3600,1.20\n3700,1.27\n3800,1.34\n").unwrap();
+    for command in ["fit", "log"] {
+        let said = hovertone(&[command, text(&table)]).ends_with(1).stderr;
+        assert!(said.contains("numbers only, but it must name the columns"), "{said}");
+        assert!(said.contains("speed_rpm,thrust_g"), "{said}");
+    }
+    fs::write(&table, "rad/s,thrust_n\n300,0.90\n400,1.61\n500,2.49\n600,3.61\n").unwrap();
+    hovertone(&["fit", text(&table)]).ends_with(0);
+}
+
+/// A limit of offsets that excludes the right one is the fault of the flag, and not of the log.
+#[test]
+fn wrong_limits_of_an_offset_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, log) = (folder.path().join("hover.wav"), folder.path().join("log.csv"));
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
+    let rows: String = (0..60).map(|row| format!("{:.1},3678,3678,3678,3678\n", 0.1 * f64::from(row))).collect();
+    fs::write(&log, format!("time_s,rotor1_rpm,rotor2_rpm,rotor3_rpm,rotor4_rpm\n{rows}")).unwrap();
+    let asked = ["verify", text(&sound), text(&log), "--vehicle", "ardrone", "--mean-only"];
+    let far = hovertone(&[&asked[..], &["--log-offset-s", "100:200"]].concat()).ends_with(1).stderr;
+    assert!(
+        far.contains("at the offsets that --log-offset-s allows") && far.contains("leave --log-offset-s out"),
+        "{far}"
+    );
+    refused_with(
+        &[&asked[..], &["--log-offset-s", "3:1"]].concat(),
+        &["exchanged", "write the smaller one first, 1:3"],
+    );
+    refused_with(&["speed", "a.wav", "--blades", "2", "--band", "300:100"], &["write the lower edge first: 100:300"]);
+}
+
+#[test]
+fn a_line_with_two_equal_signs_has_one_advice() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("experiment.toml");
+    fs::write(&file, "[vehicle]\npreset = = \"ardrone\"\n").unwrap();
+    let said = hovertone(&["identify", text(&file)]).ends_with(2).stderr;
+    assert!(said.contains("more than one = on this line") && !said.contains("nothing is needed"), "{said}");
+}
+
+/// Each too short recording has the same reason, noise or rotor.
+#[test]
+fn short_recordings_have_one_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let (noise, hover) = (folder.path().join("noise.wav"), folder.path().join("hover.wav"));
+    for duration_s in [0.1, 0.3, 0.6] {
+        write_noise(&noise, duration_s);
+        write_hover(&hover, steady_hover("ardrone", RotorSpeed::from_rev_s(60.0), duration_s));
+        for sound in [&noise, &hover] {
+            let run = hovertone(&["speed", "--blades", "2", text(sound)]);
+            let is_told = run.code == 0 || run.stderr.contains("of sound are too short to hear a rotor");
+            assert!(is_told, "{duration_s} s: {}{}", run.stdout, run.stderr);
+        }
+    }
 }

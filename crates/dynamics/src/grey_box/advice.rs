@@ -56,13 +56,14 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     }
     if fit.estimate(Parameter::Load).is_none() {
         advice.push(Advice {
-            what: "the flight does not show the square term of the load: the range of speeds is too small".to_owned(),
+            what: "the flight does not show the square term of the load (b in eq 2): the range of speeds is too small"
+                .to_owned(),
             hint: "fly climbs and descents with the largest command".to_owned(),
         });
     }
     advice.extend(fit.information.correlations.iter().map(|pair| Advice {
         what: format!(
-            "{} and {} cannot be found separately (correlation {})",
+            "{} and {} have the same effect in this flight, so each of them is uncertain (correlation {})",
             pair.first.in_words(),
             pair.second.in_words(),
             format!("{:.2}", pair.correlation).replace('-', "−")

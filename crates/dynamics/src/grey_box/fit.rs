@@ -57,7 +57,7 @@ pub enum GreyBoxStop {
     #[error("the log has no axis (roll, pitch, yaw or climb) with both a command and its measured value")]
     NoLoop,
     /// Too few observations within the log.
-    #[error("only {found} speeds lie within the log, and {needed} are needed")]
+    #[error("only {found} speeds lie within the time of the log, and {needed} are needed")]
     TooFew {
         /// Number of observations.
         found: usize,
@@ -75,7 +75,7 @@ pub enum GreyBoxStop {
         needed_s: f64,
     },
     /// The optimiser did not end.
-    #[error("the fit does not converge: the speeds do not follow the commands")]
+    #[error("the speeds do not follow the commands, so no model fits them")]
     NotConverged,
 }
 

@@ -37,8 +37,8 @@ pub struct UpdatedModel {
 }
 
 impl UpdatedModel {
-    /// The first line that still has a number which another line had before: a comment, most probably.
-    pub fn line_with_old_number(&self) -> Option<usize> {
+    /// The lines that still have a number which a changed line had before: comments, most probably. Counted from 1.
+    pub fn lines_with_old_number(&self) -> Vec<usize> {
         let is_changed = |line: usize| self.changes.iter().any(|change| change.line_number == line);
         let old: Vec<f64> = (self.changes.iter())
             .flat_map(|change| {
@@ -47,8 +47,9 @@ impl UpdatedModel {
             })
             .collect();
         let lines = self.text.lines().enumerate().map(|(index, line)| (index + 1, line));
-        let mut unchanged = lines.filter(|(number, _)| !is_changed(*number));
-        unchanged.find(|(_, line)| numbers_in(line).any(|number| old.contains(&number))).map(|(number, _)| number)
+        let unchanged = lines.filter(|(number, _)| !is_changed(*number));
+        let stale = unchanged.filter(|(_, line)| numbers_in(line).any(|number| old.contains(&number)));
+        stale.map(|(number, _)| number).collect()
     }
 }
 

@@ -183,7 +183,7 @@ pub enum ModelError {
     },
     /// An export of this project, in which every number follows from the result.
     #[error(
-        "this is an export of hovertone itself, without anything of yours to keep: write it again with --to json or --to yaml"
+        "this file is an export of hovertone itself, so there is nothing of yours to keep: write it again with --to json or --to yaml"
     )]
     OwnExport,
     /// A format that needs more numbers than the result has.

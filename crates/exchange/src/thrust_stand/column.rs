@@ -155,7 +155,8 @@ fn meaning_of(header: &str) -> Meaning {
     let speed = |rad_s: f64| Meaning::Known(either(Quantity::Speed, Quantity::SpeedStd), rad_s);
     if has(&["rpm"]) {
         speed(RPM_RAD_S)
-    } else if has(&["rad"]) && has(&["s"]) && has(&["speed"]) || has(&["omega", "ω"]) {
+    } else if has(&["rad"]) && has(&["s"]) && has(&["speed"]) || has(&["omega", "ω"]) || words == ["rad", "s"] {
+        // a unit that stands alone names the speed of the rotor
         speed(1.0)
     } else if has(&["rev", "rps"]) || has(&["hz"]) && has(&["speed", "shaft"]) {
         speed(TAU)
@@ -238,6 +239,9 @@ mod tests {
             ("avg_rpm", Quantity::Speed, RPM_RAD_S),
             ("speed_rad_s", Quantity::Speed, 1.0),
             ("omega [rad/s]", Quantity::Speed, 1.0),
+            ("rad/s", Quantity::Speed, 1.0),
+            ("[rad/s]", Quantity::Speed, 1.0),
+            ("rev/s", Quantity::Speed, TAU),
             ("speed_rev_s", Quantity::Speed, TAU),
             ("speed_std_rpm", Quantity::SpeedStd, RPM_RAD_S),
             ("Thrust (gf)", Quantity::Thrust, 9.80665e-3),

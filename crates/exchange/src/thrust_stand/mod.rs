@@ -113,7 +113,7 @@ pub enum TableError {
         must_be: &'static str,
     },
     /// Numbers of several rows that only another unit than that of the header explains.
-    #[error("column \"{column}\": {count} of {of} numbers are {must_be}; the largest of these is {largest}")]
+    #[error("column \"{column}\": {count} of {of} numbers are {must_be}; the largest one is {largest}")]
     OtherUnit {
         /// Header of the column.
         column: String,
@@ -323,7 +323,7 @@ fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
     let sum: f64 = turning.map(thrust).sum();
     if sum < 0.0 {
         notes.push(
-            "the thrusts are negative and are used as positive ones: the sign depends on how the stand is mounted"
+            "the thrusts are negative, and are used as positive ones: a stand that is mounted the other way shows the other sign"
                 .to_owned(),
         );
         for GroupedRow { row, .. } in rows.iter_mut() {
@@ -334,7 +334,7 @@ fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
     }
     let against = |row: &StandRow| thrust(row) <= 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest;
     for row in rows.iter().map(|of| &of.row).filter(|row| against(row)) {
-        let what = "thrust is zero or against the sign of the others";
+        let what = "its thrust is zero, or has another sign than the others";
         notes.push(format!("line {} is left out: {what}", row.line_number));
     }
     rows.retain(|of| !against(&of.row));

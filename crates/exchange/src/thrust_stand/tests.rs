@@ -78,9 +78,9 @@ fn what_means_nothing_is_refused_with_its_line() {
         ("speed_rev_s,thrust_n\n60,0.7\n3610,1\n", ["line 3", "3610: too fast for a rotor, at most 1500 rev/s"]),
         (
             "speed_rev_s,thrust_n\n50,0.5\n3000,0.7\n3610,1\n",
-            ["2 of 3 numbers are too fast", "largest of these is 3610"],
+            ["2 of 3 numbers are too fast", "the largest one is 3610"],
         ),
-        ("rpm,thrust_n\n50,0.7\n58,1\n", ["2 of 2 numbers are too slow", "largest of these is 58"]),
+        ("rpm,thrust_n\n50,0.7\n58,1\n", ["2 of 2 numbers are too slow", "the largest one is 58"]),
         ("rpm,mass_kg\n3610,0.413\n3742,444\n", ["line 3", "444: heavier than most multirotors"]),
         ("rpm,mass_kg\n3610,413\n3742,444\n", ["2 of 2 numbers", "heavier than most multirotors"]),
         ("rpm,mass_g\n3610,0.413\n3742,0.444\n", ["2 of 2 numbers", "lighter than any multirotor"]),

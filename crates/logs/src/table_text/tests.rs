@@ -45,13 +45,13 @@ fn what_means_nothing_is_refused_with_what_to_do() {
     for (text, words) in [
         ("time,motor1_pwm\n0,1\n", ["unit", "time, motor1_pwm"]),
         ("motor1_pwm,motor2_pwm\n0,1\n", ["time", "columns are"]),
-        ("time_s,x_m\n0,1\n", ["motors or body rates", "time_s, x_m"]),
-        ("time_s,gyro_x_rad_s\n0,1\n", ["motors or body rates", "gyro_x_rad_s"]),
+        ("time_s,x_m\n0,1\n", ["a motor or a body rate", "time_s, x_m"]),
+        ("time_s,gyro_x_rad_s\n0,1\n", ["a motor or a body rate", "gyro_x_rad_s"]),
         ("time_s,motor1_pwm,m1\n0,1,2\n", ["motor1_pwm", "m1"]),
         ("time_s,motor1_rpm\n0,3600\n0,1,3600,5\n", ["line 3", "4 cells, but the header has 2"]),
         ("time_s,motor1_pwm\n0,fast\n", ["line 2", "fast"]),
         ("time_s,motor1_pwm\n0,inf\n", ["line 2", "inf"]),
-        ("time_s,motor1_pwm\n1,1\n0.5,1\n", ["line 3", "before"]),
+        ("time_s,motor1_pwm\n1,1\n0.5,1\n", ["line 3", "earlier than the time of the line above"]),
         ("", ["empty", "a table is needed"]),
     ] {
         let error = flight_log_from_csv(text).unwrap_err();

@@ -36,5 +36,5 @@ fn names_that_fit_nothing_are_refused_with_what_to_do() {
     assert!(matches!(&error, LogError::NoSuchColumn { columns, .. } if columns == "Zeit, Drehzahl, Stellgröße, Notiz"));
     let bytes = crate::writers::dataflash::flight(1);
     let error = log_summary(&bytes[..], &names(&[("Zeit", "time_ms")])).unwrap_err();
-    assert!(error.to_string().contains("has names for its signals"), "{error}");
+    assert!(error.to_string().contains("have fixed names"), "{error}");
 }

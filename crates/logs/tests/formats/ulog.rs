@@ -84,7 +84,7 @@ fn what_tells_nothing_is_refused_with_what_to_do() {
         (&header[..7], ["before its data", "ULog"]),
         (b"\xa3\x95\x80\0FMT", ["before its data", "DataFlash"]),
         (b"PK\x03\x04\0\0", ["neither a CSV", "ULog"]),
-        (b"time_s,x\n0,1\n", ["motors or body rates", "time_s"]),
+        (b"time_s,x\n0,1\n", ["a motor or a body rate", "time_s"]),
     ] {
         let error = flight_of(bytes).unwrap_err();
         let message = error.to_string();

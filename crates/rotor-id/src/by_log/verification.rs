@@ -47,6 +47,7 @@ pub struct LoggedSpeeds<'a> {
 
 /// Why nothing can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NotVerified {
     /// No speed was heard.
     #[error("no rotor was heard for long enough")]
@@ -60,10 +61,13 @@ pub enum NotVerified {
         motors: usize,
     },
     /// Both never overlap for long enough.
-    #[error("log and recording share too little time")]
+    #[error("the log is too short, or not of this recording: they share too little time")]
     NoOverlap,
+    /// Both do not overlap for long enough at the given offsets.
+    #[error("at the offsets that --log-offset-s allows, the log and the recording share too little time")]
+    NoOverlapAtOffset,
     /// The range of offsets is too wide.
-    #[error("log and recording are too long to try all offsets between their clocks")]
+    #[error("the log or the recording is too long to try all offsets between their clocks")]
     TooLong,
 }
 
@@ -74,6 +78,9 @@ impl NotVerified {
             Self::NoTrack => "check the recording with `hovertone speed`",
             Self::TooFewMotors { .. } => "give the log of the same vehicle, or the number of rotors with --rotors",
             Self::NoOverlap => "give the log of the same flight, at least half as long as the hover",
+            Self::NoOverlapAtOffset => {
+                "leave --log-offset-s out, or give limits that contain the right offset; the offset is added to the clock of the log"
+            }
             Self::TooLong => "give limits of the offset in seconds: --log-offset-s LOW:HIGH",
         }
     }
@@ -107,7 +114,7 @@ pub fn verification_from_log(
     let costs: Vec<f64> = offsets.iter().map(|&offset_s| comparison.cost(offset_s, COARSE_POINTS)).collect();
     let best = (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).ok_or(NotVerified::NoOverlap)?;
     if !costs[best].is_finite() {
-        return Err(NotVerified::NoOverlap);
+        return Err(offsets_s.map_or(NotVerified::NoOverlap, |_| NotVerified::NoOverlapAtOffset));
     }
     let elsewhere = offsets.iter().zip(&costs).filter(|(offset_s, _)| (*offset_s - offsets[best]).abs() > ELSEWHERE_S);
     let elsewhere = elsewhere.map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);

@@ -82,7 +82,9 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
             reading.thrust_coefficient = Some(thrust_coefficient);
             let (low, high) = (config.thrust_coefficient_min, config.thrust_coefficient_max);
             if !(low..=high).contains(&thrust_coefficient) {
-                against.push(format!("its thrust does not fit: C_T is not between {low} and {high}"));
+                against.push(format!(
+                    "its thrust does not fit: propellers have a thrust coefficient C_T of {low} to {high}"
+                ));
             }
         }
     }

@@ -28,8 +28,9 @@ fn a_trial_under_the_wrong_load_is_named() {
     let said = misfiled(&table);
     assert_eq!(said.len(), 1, "{said:?}");
     assert!(
-        said[0]
-            .starts_with("judged by its speed, load 0/2.wav of load \"load 0\" has 12 % more thrust than the others"),
+        said[0].starts_with(
+            "the rotor speed in load 0/2.wav means 12 % more thrust than in the other recordings of load \"load 0\""
+        ),
         "{said:?}"
     );
     let is_about_range = |warning: &ThrustWarning| matches!(warning, ThrustWarning::NarrowLoadRange(_));
@@ -53,7 +54,10 @@ fn of_two_trials_that_differ_both_are_named() {
     stretch(&mut loads[0].trials[1], 1.12);
     let said = misfiled(&fitted(&loads));
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].contains("load 0/1.wav of load \"load 0\" has 12 % more thrust than load 0/0.wav"), "{said:?}");
+    assert!(
+        said[0].contains("12 % more thrust in load 0/1.wav than in load 0/0.wav, but both are of load \"load 0\""),
+        "{said:?}"
+    );
 }
 
 #[test]

@@ -315,7 +315,10 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
         mass_that_fits_std_kg: mass_kg(point.force_that_fits_std_n),
         is_left_out: point.is_gross,
     };
-    let misfits: Vec<&PointVerdict> = fit.points.iter().filter(|point| point.fits == Some(false)).collect();
+    let mut misfits: Vec<&PointVerdict> = fit.points.iter().filter(|point| point.fits == Some(false)).collect();
+    let log_ratio = |point: &PointVerdict| point.deviation_share.map_or(0.0, |share| share.ln_1p().abs());
+    // a long list is cut: the rows that are farthest off come first
+    misfits.sort_by(|a, b| log_ratio(b).total_cmp(&log_ratio(a)));
     let mut warnings: Vec<ThrustWarning> = if misfits.len() > 1 && misfits.len() == points.len() {
         let names = misfits.iter().map(|point| point.name.clone()).collect();
         vec![ThrustWarning::LoadsDisagree { names, are_rows: true }]
@@ -340,11 +343,10 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
     warnings
 }
 
-/// The warning that another law is preferred to the square law, which simulators use. Its probability is that of these two laws alone.
+/// The warning that another law is preferred to the square law, which simulators use. Its probability is that in the table of laws.
 fn law_warning(fit: &SquareLawFit) -> Option<ThrustWarning> {
     let law = preferred_law(fit).filter(|law| *law != ForceLaw::Square)?;
-    let (other, square) = (probability_of(fit, law), probability_of(fit, ForceLaw::Square));
-    Some(ThrustWarning::OtherLawPreferred { law, probability: other / (other + square) })
+    Some(ThrustWarning::OtherLawPreferred { law, probability: probability_of(fit, law) })
 }
 
 /// The law that is clearly preferred: another law where it is three times as probable as the square law, and the square law

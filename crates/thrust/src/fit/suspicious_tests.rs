@@ -156,7 +156,10 @@ fn small_numbers_are_not_printed_as_zero() {
     let drift =
         Drift { kind: DriftKind::PerSecond, constant_share: -1.234e-6, std_uncertainty_share: 1e-7, p_value: 1e-9 };
     let text = ThrustWarning::ConstantDrifts(drift).to_string();
-    assert_eq!(text, "the constant drifts by −0.00012 % with each second of a recording (p < 0.0001)");
+    assert_eq!(
+        text,
+        "the constant drifts by −0.00012 % with each second of a recording (chance of this without a true drift: p < 0.0001)"
+    );
 }
 
 #[test]
@@ -201,7 +204,10 @@ fn constants_that_differ_within_the_stated_uncertainty_are_no_contradiction() {
     assert!(differing(0.0, 0.14).is_some());
     assert_eq!(differing(0.1, 0.14), None, "twice the root of two tenths squared is 28 %");
     let told = differing(0.1, 0.4).unwrap().to_string();
-    assert!(told.ends_with("; the stated uncertainties of their forces explain only 28 % (k = 2)"), "{told}");
+    assert!(
+        told.ends_with("; the stated uncertainties of the forces (k = 2) explain only 28 % of difference"),
+        "{told}"
+    );
     assert!(!differing(0.0, 0.14).unwrap().to_string().contains("explain"));
 }
 
@@ -271,4 +277,58 @@ fn a_power_that_no_rotor_takes_and_a_mass_that_nobody_weighed_are_said() {
         .collect();
     assert!(matches!(implausible[..], [ThrustWarning::ImplausibleFigureOfMerit { name, .. }] if name == "load 1"));
     assert!(table.warnings.contains(&ThrustWarning::MassNotWeighed { mass_kg: VEHICLE_KG }));
+}
+
+/// A table whose rows lie on the law but for rounding, with the deviations of some rows.
+fn table_with(deviations: &[(usize, f64)]) -> Vec<ForcePoint> {
+    let row = |index: usize| {
+        let speed = RotorSpeed::from_rad_s(400.0 + 60.0 * index as f64);
+        let share = deviations.iter().find(|(row, _)| *row == index).map_or(0.0, |(_, share)| *share);
+        // a wave of rounding errors
+        let rounding = 4e-5 * ((index * 7919 % 100) as f64 / 50.0 - 1.0);
+        let force_n = 8e-6 * speed.rad_s().powi(2) * (1.0 + share + rounding);
+        ForcePoint::from_speed(format!("line {}", index + 2), speed, 0.0, force_n, 0.0)
+    };
+    (0..14).map(row).collect()
+}
+
+#[test]
+fn good_rows_beside_bad_ones_are_not_named_and_the_worst_comes_first() {
+    let named = |deviations: &[(usize, f64)]| {
+        let points = table_with(deviations);
+        let fit = square_law_fit(&points, PointNoise::FromResiduals).unwrap();
+        let warnings = warnings_of_points(&points, &fit, None);
+        let names = |warning: &ThrustWarning| match warning {
+            ThrustWarning::RowsDoNotFit { names, .. } => names.clone(),
+            ThrustWarning::LoadDoesNotFit { name, .. } => vec![name.clone()],
+            _ => Vec::new(),
+        };
+        warnings.iter().flat_map(names).collect::<Vec<String>>()
+    };
+    // 0.08 % is as good as a stand is
+    assert!(named(&[(3, 8e-4), (9, -8e-4)]).is_empty());
+    assert_eq!(named(&[(3, 8e-4), (9, -0.2)]), ["line 11"]);
+    let many = [(1, 8e-4), (2, -0.05), (5, 0.06), (6, -8e-4), (9, 0.30), (11, -0.10)];
+    assert_eq!(named(&many), ["line 11", "line 13", "line 7", "line 4"]);
+}
+
+#[test]
+fn the_warning_and_the_table_have_one_probability() {
+    let points: Vec<ForcePoint> = (0..12)
+        .map(|index| {
+            let speed = RotorSpeed::from_rad_s(400.0 + 60.0 * f64::from(index));
+            let scatter = 0.004 * (f64::from(index * 7919 % 100) / 50.0 - 1.0);
+            let force_n = 8e-6 * speed.rad_s().powi(2) * (1.0 + scatter) + 0.06;
+            ForcePoint::from_speed(format!("line {}", index + 2), speed, 0.0, force_n, 0.0)
+        })
+        .collect();
+    let fit = square_law_fit(&points, PointNoise::FromResiduals).unwrap();
+    let warnings = warnings_of_points(&points, &fit, None);
+    let told = warnings.iter().find_map(|warning| match warning {
+        ThrustWarning::OtherLawPreferred { law, probability } => Some((*law, *probability)),
+        _ => None,
+    });
+    let (law, probability) = told.expect("another law is preferred");
+    let in_table = fit.laws.iter().find(|known| known.law == law).unwrap().probability;
+    assert_eq!(probability, in_table);
 }
