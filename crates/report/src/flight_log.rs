@@ -34,17 +34,17 @@ impl FlightLogRecord {
     /// The warnings that follow: an order check that failed or is not decided, or a log that cannot be compared.
     pub fn notices(&self) -> Vec<Notice> {
         let failed = self.verification.as_ref().and_then(failed_check).map(|Notice { text, hint, .. }| {
-            Notice::new(format!("the order of the tone does not fit the log {}: {text}", self.file), hint)
+            Notice::new(format!("the order check against {} failed: {text}", self.file), hint)
         });
         let undecided = self.verification.as_ref().and_then(undecided_check).map(|Notice { text, hint, .. }| {
             Notice::new(
-                format!("it is not decided whether the order of the tone fits the log {}: {text}", self.file),
+                format!("the order check against {} is not decided: {text}", self.file),
                 hint,
             )
         });
         let not_compared = self.not_verified.as_ref().map(|Notice { text, hint, .. }| {
             Notice::new(
-                format!("the order of the tone could not be checked against the log {}: {text}", self.file),
+                format!("no order check against {}: {text}", self.file),
                 hint.clone(),
             )
         });

@@ -116,7 +116,7 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
             experiment.propeller_diameter_m.is_some(),
             match experiment.config.known.shaft_speed {
                 Some(_) => "the diameter of the propellers is not known: the thrust constant C_f does not need it, but the thrust coefficient C_T is left out",
-                None => "the diameter of the propellers is not known: with it, hovertone can rule out half and double of the true speed; C_T needs it too",
+                None => "the diameter of the propellers is not known: with it, hovertone can rule out half and double the speed; C_T needs it too",
             },
             "write propeller_diameter_m under [vehicle]; without an experiment file, give --diameter-m",
         ),

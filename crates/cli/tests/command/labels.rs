@@ -83,7 +83,7 @@ fn rotors_are_named_by_rates_and_by_speeds_and_by_neither() {
     let without = run(&["--condition"], 0);
     assert!(
         without["labels"]["source"].is_null()
-            && without["labels"]["reason"].to_string().contains("order of their speeds")
+            && without["labels"]["reason"].to_string().contains("which rotor of the vehicle")
     );
     assert!(without["rotors"][0]["label"].is_null() && without["rotors"][2]["condition"]["lines"].is_array());
     let table = hovertone(&["speed", "--vehicle", "ardrone", "--condition", text(&sound)]).ends_with(0).stdout;
