@@ -37,16 +37,10 @@ impl FlightLogRecord {
             Notice::new(format!("the order check against {} failed: {text}", self.file), hint)
         });
         let undecided = self.verification.as_ref().and_then(undecided_check).map(|Notice { text, hint, .. }| {
-            Notice::new(
-                format!("the order check against {} is not decided: {text}", self.file),
-                hint,
-            )
+            Notice::new(format!("the order check against {} is not decided: {text}", self.file), hint)
         });
         let not_compared = self.not_verified.as_ref().map(|Notice { text, hint, .. }| {
-            Notice::new(
-                format!("no order check against {}: {text}", self.file),
-                hint.clone(),
-            )
+            Notice::new(format!("no order check against {}: {text}", self.file), hint.clone())
         });
         failed.into_iter().chain(undecided).chain(not_compared).collect()
     }

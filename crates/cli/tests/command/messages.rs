@@ -203,7 +203,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ),
         (
             "identify --mass 413g --vehicle ardrone hover.mov",
-            "error: a file stands apart from its mass, so that it counts as the experiment file (hint: write each recording directly behind its \
+            "error: a file that does not stand behind a mass counts as the experiment file (hint: write each recording directly behind its \
              mass, as in --mass 413g hover.mov, and all other flags before --mass)",
         ),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),

@@ -97,6 +97,6 @@ fn rows_without_scatter_say_that_their_sign_was_turned() {
     fs::write(&table, "rpm,thrust_g\n1000,-10\n2000,-40\n3000,-90\n").unwrap();
     refused_with(
         &["fit", text(&table)],
-        &["lie exactly on F = C ω²", "the thrusts are negative and are used as positive"],
+        &["lie exactly on F = C ω²", "the thrusts are negative, and are used as positive ones"],
     );
 }
