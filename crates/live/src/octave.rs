@@ -2,7 +2,7 @@
 //!
 //! A rotor that is followed keeps its octave. Each review hears other seconds, and tells a belief in each possible speed; the beliefs of the reviews
 //! multiply. A speed that a review does not name may still be the truth: a decision leaves one chance of a hundred to others. Reviews of the same
-//! lines share their doubts, so doubtful reviews together decide nothing: more than half of the reviews must decide alone. Where neither the
+//! lines share their doubts, so doubtful reviews together decide nothing: the last review, or more than half of all, must decide alone. Where neither the
 //! blades nor the diameter are known, the levels of the lines may deceive, and then they do so in all reviews: the belief is the mean of the reviews.
 
 use hovertone_rotor_speed::EvidenceConfig;
@@ -61,6 +61,8 @@ pub(crate) struct Octave {
     reviews: u32,
     /// How many of them decided alone, for each speed.
     decided_alone: Vec<DecidedAlone>,
+    /// The speed for which the last one decided alone.
+    last_decided_rev_s: Option<f64>,
 }
 
 impl Octave {
@@ -73,6 +75,7 @@ impl Octave {
             may_be_deceived,
             reviews: 0,
             decided_alone: Vec::new(),
+            last_decided_rev_s: None,
         }
     }
 
@@ -92,11 +95,11 @@ impl Octave {
             self.speeds = reviewed.to_vec();
             self.reviews = 1;
             self.decided_alone.clear();
-            self.count_decision(chosen);
+            self.count_decision(reviewed);
             return;
         };
         self.move_to(followed_rev_s);
-        self.count_decision(chosen);
+        self.count_decision(reviewed);
         let reviews_before = f64::from(self.reviews);
         self.reviews += 1;
         let unnamed_belief = self.unnamed_belief;
@@ -127,19 +130,27 @@ impl Octave {
         let Some((leading, others)) = self.speeds.split_first_mut() else { return };
         let alone = self.decided_alone.iter().find(|decided| leading.is_same(decided.speed_rev_s));
         let is_by_most = 2 * alone.map_or(0, |decided| decided.reviews) > self.reviews;
+        let is_by_last = self.last_decided_rev_s.is_some_and(|speed_rev_s| leading.is_same(speed_rev_s));
         let of_others: f64 = others.iter().map(|other| other.belief).sum();
-        if self.may_be_deceived || is_by_most || of_others >= doubt || of_others <= 0.0 {
+        if self.may_be_deceived || is_by_most || is_by_last || of_others >= doubt || of_others <= 0.0 {
             return;
         }
         leading.belief = 1.0 - doubt;
         others.iter_mut().for_each(|other| other.belief *= doubt / of_others);
+        if let Some(second) = others.first_mut() {
+            second.belief = second.belief.max(0.5 * doubt);
+        }
     }
 
     /// Counts a review that decides for its most probable speed alone.
-    fn count_decision(&mut self, chosen: &PossibleSpeed) {
-        if chosen.belief < self.belief_min {
+    fn count_decision(&mut self, reviewed: &[PossibleSpeed]) {
+        self.last_decided_rev_s = None;
+        let Some(chosen) = reviewed.first() else { return };
+        let possible = reviewed.iter().filter(|speed| speed.belief >= 1.0 - self.belief_min).count();
+        if chosen.belief < self.belief_min && possible > 1 {
             return;
         }
+        self.last_decided_rev_s = Some(chosen.speed_rev_s);
         match self.decided_alone.iter_mut().find(|decided| chosen.is_same(decided.speed_rev_s)) {
             Some(decided) => decided.reviews += 1,
             None => self.decided_alone.push(DecidedAlone { speed_rev_s: chosen.speed_rev_s, reviews: 1 }),
@@ -163,8 +174,7 @@ impl Octave {
     pub(crate) fn possible(&self) -> &[PossibleSpeed] {
         let count = self.speeds.iter().take_while(|speed| speed.belief >= 1.0 - self.belief_min).count();
         let is_decided = self.speeds.first().is_none_or(|leading| leading.belief >= self.belief_min);
-        // an open decision has two speeds or more
-        &self.speeds[..if is_decided || self.speeds.len() < 2 { 0 } else { count.max(2) }]
+        &self.speeds[..if is_decided || count < 2 { 0 } else { count }]
     }
 }
 

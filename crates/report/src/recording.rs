@@ -61,10 +61,10 @@ pub enum Contradicted {
 /// In less sound, hovering longer is no advice: there is too little of it. *Decision.*
 const HOVER_S_MIN: f64 = 1.0;
 
-/// Length of the sound where it is too short for any rotor: then no other reason tells more. `None` where it is long enough, silent, or empty.
+/// Length of the sound where it is too short for most rotors: then no other reason tells more. `None` where it is long enough, silent, or left out.
 fn too_short_s(analysis: &SpeedAnalysis, reason: &NoTone) -> Option<f64> {
     let is_other = matches!(reason, NoTone::Silence | NoTone::OutsideRecording { .. });
-    analysis.hover.span_s().filter(|heard_s| !is_other && *heard_s < HOVER_S_MIN)
+    Some(analysis.heard.length_s()).filter(|heard_s| !is_other && (0.0..HOVER_S_MIN).contains(heard_s))
 }
 
 /// Result of the search for a tone of unknown order.

@@ -83,13 +83,12 @@ fn verdict_in_words(found: &Verification) -> String {
         };
         return format!("not decided: {text}; {hint}{limits}");
     }
-    let of_means = format!("the mean of the heard speeds differs from the log by {} %", percent_of(found));
-    match small_plus_minus(found) {
-        Some(Notice { text, .. }) => {
-            format!("order and clock: passed, {of_means}\n±: not passed, {text}")
-        }
-        None => format!("passed: order and clock are right; {of_means}"),
-    }
+    let percent = percent_of(found);
+    // order and clock are judged apart from the ±
+    let small = small_plus_minus(found).map_or(String::new(), |notice| format!("\n±: not passed; {}", notice.text));
+    format!(
+        "passed: order and clock are right; the mean of the heard speeds differs from the log by {percent} %{small}"
+    )
 }
 
 /// That the stated ± holds too few of the logged speeds, although order and clock are right; `None` where it is large enough, or where the check
@@ -294,7 +293,7 @@ mod tests {
             [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]
         {
             let words = verdict(0.59, agreement);
-            assert!(words.starts_with("order and clock: passed") && words.contains("±: not passed"), "{words}");
+            assert!(words.starts_with("passed: order and clock") && words.contains("\n±: not passed"), "{words}");
             assert!(words.contains(word) && words.contains("only 59 % of the logged speeds"), "{words}");
             assert!(small_plus_minus(&verified(0.59, agreement)).is_some());
         }
