@@ -43,7 +43,7 @@ fn the_papers_rows_fit_with_462_g_and_not_with_472() {
     let mass_g = 1e3 * number(misfits[0], "/force_that_fits_n") / 9.8;
     assert!((mass_g - 462.4).abs() < 0.5, "{mass_g}");
     let words = hovertone(&["fit", text(&paper_table(folder.path(), 472)), "--gravity-m-s2", "9.8"]).ends_with(0);
-    assert!(words.stderr.contains("line 4 of the table does not fit the others; 462."), "{}", words.stderr);
+    assert!(words.stderr.contains("line 4 of the table does not fit the others; a mass of 462."), "{}", words.stderr);
 }
 
 /// Constants and exponents as the README of the recordings has them, to its digits.
