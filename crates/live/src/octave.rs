@@ -2,8 +2,9 @@
 //!
 //! A rotor that is followed keeps its octave. Each review hears other seconds, and tells a belief in each possible speed; the beliefs of the reviews
 //! multiply. A speed that a review does not name may still be the truth: a decision leaves one chance of a hundred to others. Reviews of the same
-//! lines share their doubts, so doubtful reviews together decide nothing: the last review, or more than half of all, must decide alone. Where neither the
-//! blades nor the diameter are known, the levels of the lines may deceive, and then they do so in all reviews: the belief is the mean of the reviews.
+//! lines share their doubts, so doubtful reviews together decide nothing: the last review, or more than half of all, must decide alone. Where
+//! neither the blades nor the diameter are known, the levels of the lines may deceive, and then they do so in all reviews: the belief is the mean
+//! of the reviews.
 
 use hovertone_rotor_speed::EvidenceConfig;
 use hovertone_vehicle::Order;
