@@ -44,10 +44,16 @@ impl LiveSummary {
         }
     }
 
-    /// Whether one speed was told, and stayed the only one: what a later part of the sound leaves open for as long a time is open, as it is for
-    /// `hovertone speed`.
+    /// Whether one speed was told, and stayed the only one: where the sound ends open, or its single speeds change, and it is open for as long a
+    /// time, it is open, as it is for `hovertone speed`.
     pub(crate) fn is_settled(&self) -> bool {
-        self.settled_count > 0 && !(self.is_last_ambiguous && self.ambiguous_count >= self.settled_count)
+        let is_doubtful = self.is_last_ambiguous || self.has_changed();
+        self.settled_count > 0 && !(is_doubtful && self.ambiguous_count >= self.settled_count)
+    }
+
+    /// Whether the single speeds are not those of one hover.
+    fn has_changed(&self) -> bool {
+        self.range_rev_s.is_some_and(|(slowest_rev_s, fastest_rev_s)| fastest_rev_s > ONE_HOVER_FACTOR * slowest_rev_s)
     }
 
     /// The mean speed, and how long it was heard; `None` if there was no sound.
@@ -64,7 +70,7 @@ impl LiveSummary {
         let part_s = |count: usize| fixed(count as f64 / self.count as f64 * self.end_s, 1);
         let mean = self.range_rev_s.filter(|_| self.is_settled()).map(|(slowest_rev_s, fastest_rev_s)| {
             let heard_s = part_s(self.settled_count);
-            if fastest_rev_s > ONE_HOVER_FACTOR * slowest_rev_s {
+            if self.has_changed() {
                 let (slowest, fastest) = (fixed(slowest_rev_s, 1), fixed(fastest_rev_s, 1));
                 return format!(
                     "no mean: the speed changed between {slowest} and {fastest} rev/s; it was heard in {heard_s} s of {end_s} s"
