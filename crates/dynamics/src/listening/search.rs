@@ -100,25 +100,38 @@ pub(super) fn with_delay(
     best(moved.into_iter(), score).unwrap_or(*model)
 }
 
-/// The model with the gains of each loop in another ratio to the vehicle's, where that makes the sound clearly more likely. `None` if no
-/// loop changes.
+/// The model with the gains of each loop in another ratio to the vehicle's, both gains together and the derivative's alone, and with measured
+/// values that are later or earlier, where that makes the sound clearly more likely. `None` if nothing changes.
 fn better_gains(
     model: &GreyBoxModel,
     start: &GreyBoxModel,
     score: impl Fn(&GreyBoxModel) -> f64,
 ) -> Option<GreyBoxModel> {
     let (mut better, mut now) = (*model, score(model));
+    let mut keep_better = |changed: GreyBoxModel, better: &mut GreyBoxModel| {
+        let value = score(&changed);
+        if value > now + BETTER_NATS {
+            (*better, now) = (changed, value);
+        }
+    };
     for axis in [Axis::Climb, Axis::YawRate, Axis::Roll, Axis::Pitch] {
+        let of_start = &start.loops[axis as usize];
         for factor in GAIN_FACTORS {
             let mut scaled = better;
-            let (gains, of_start) = (&mut scaled.loops[axis as usize], &start.loops[axis as usize]);
+            let gains = &mut scaled.loops[axis as usize];
             gains.proportional = factor * of_start.proportional;
             gains.derivative = factor * of_start.derivative;
-            let value = score(&scaled);
-            if value > now + BETTER_NATS {
-                (better, now) = (scaled, value);
-            }
+            keep_better(scaled, &mut better);
         }
+        for factor in GAIN_FACTORS.into_iter().filter(|_| of_start.derivative != 0.0) {
+            let mut scaled = better;
+            scaled.loops[axis as usize].derivative = factor * of_start.derivative;
+            keep_better(scaled, &mut better);
+        }
+    }
+    for step in DELAYS {
+        let measured_delay_s = better.command_delay_s + DELAY_STEP_S * f64::from(step);
+        keep_better(GreyBoxModel { measured_delay_s, ..better }, &mut better);
     }
     (better != *model).then_some(better)
 }
