@@ -100,8 +100,9 @@ pub(super) fn with_delay(
     best(moved.into_iter(), score).unwrap_or(*model)
 }
 
-/// The model with the gains of each loop in another ratio to the vehicle's, both gains together and the derivative's alone, and with measured
-/// values that are later or earlier, where that makes the sound clearly more likely. `None` if nothing changes.
+/// The model with the gains of each loop in another ratio to the vehicle's, both gains together and the derivative's alone, with measured values
+/// that are later or earlier, and with a part of the time constant as a delay, where that makes the sound clearly more likely. `None` if nothing
+/// changes.
 fn better_gains(
     model: &GreyBoxModel,
     start: &GreyBoxModel,
@@ -132,6 +133,14 @@ fn better_gains(
     for step in DELAYS {
         let measured_delay_s = better.command_delay_s + DELAY_STEP_S * f64::from(step);
         keep_better(GreyBoxModel { measured_delay_s, ..better }, &mut better);
+    }
+    // a motor that is slower by as much as the delays are shorter answers nearly the same
+    for factor in TIME_FACTORS {
+        let time_constant_s = factor * start.time_constant_s;
+        let shorter_s = time_constant_s - better.time_constant_s;
+        let (command_delay_s, measured_delay_s) =
+            (better.command_delay_s - shorter_s, better.measured_delay_s - shorter_s);
+        keep_better(GreyBoxModel { time_constant_s, command_delay_s, measured_delay_s, ..better }, &mut better);
     }
     (better != *model).then_some(better)
 }

@@ -177,8 +177,7 @@ impl<'a> LevelModel<'a> {
             let inaudible = shaft.largest_nats.map(|nats| self.prior.shaft_inaudible * (-nats).exp());
             let at_loudness = LOUDNESS_DB.iter().zip(&self.loudness_nats).map(|(&loudness_db, weight)| {
                 let mean_db = f64::from(loudness_db) + self.prior.below_db;
-                let below_nats: f64 =
-                    below.iter().map(|line| self.below.at(line.row, mean_db - line.floor_db)).sum();
+                let below_nats: f64 = below.iter().map(|line| self.below.at(line.row, mean_db - line.floor_db)).sum();
                 let of_blades = self.of_blades(&even, &odd, loudness_db);
                 let of_shaft = self.of_unlike_blades(&shaft, &inaudible, loudness_db);
                 let up_to = shares_of_last.iter().zip(of_blades).zip(of_shaft);

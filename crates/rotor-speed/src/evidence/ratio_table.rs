@@ -147,7 +147,8 @@ mod tests {
     fn ratios_are_added_from_below_to_above_the_table() {
         let noise = NoiseLevel { mean_db: -1.0, std_db: 1.0, lines_share: 0.05, places: 180.0 };
         let prior = LineLevels::default();
-        let mut table = RatioTable::new(noise, &LineScatter { std_db: 4.0, missing: 0.1, notched: 0.1, prior: &prior }, 0.05);
+        let mut table =
+            RatioTable::new(noise, &LineScatter { std_db: 4.0, missing: 0.1, notched: 0.1, prior: &prior }, 0.05);
         let row = table.row(12.0);
         assert!(table.at(row, 12.0) > table.at(row, -20.0));
         for mean_db in [-200.0, -170.4, -47.0, -46.0, -45.0, -44.0, -3.3, 20.0, 93.0, 95.0, 96.0, 200.0] {
