@@ -101,7 +101,8 @@ pub(super) fn with_delay(
 }
 
 /// The model with the gains of each loop in another ratio to the vehicle's, both gains together and the derivative's alone, with measured values
-/// that are later or earlier, and with a part of the time constant as a delay, where that makes the sound clearly more likely. `None` if nothing
+/// that are later or earlier, with a part of the time constant as a delay,
+/// and with motors that are alike, where that makes the sound clearly more likely. `None` if nothing
 /// changes.
 fn better_gains(
     model: &GreyBoxModel,
@@ -115,6 +116,8 @@ fn better_gains(
             (*better, now) = (changed, value);
         }
     };
+    // motors that were fitted to rotors with wrong names
+    keep_better(GreyBoxModel { motor_gain: start.motor_gain, ..better }, &mut better);
     for axis in [Axis::Climb, Axis::YawRate, Axis::Roll, Axis::Pitch] {
         let of_start = &start.loops[axis as usize];
         for factor in GAIN_FACTORS {
@@ -350,7 +353,7 @@ pub(super) fn with_names(
     swapped(model, |model| score(heard, order_max, inputs, model, &windows))
 }
 
-/// Swaps the hover speeds of two rotors as long as that makes the sound more likely.
+/// Swaps the hover speeds and the motors of two rotors as long as that makes the sound more likely.
 fn swapped(model: &GreyBoxModel, score: impl Fn(&GreyBoxModel) -> f64) -> Named {
     let mut named = Named { model: *model, margin_nats: f64::INFINITY };
     let mut now = score(model);
@@ -360,6 +363,7 @@ fn swapped(model: &GreyBoxModel, score: impl Fn(&GreyBoxModel) -> f64) -> Named 
         let swaps = pairs.map(|[a, b]| {
             let mut swap = named.model;
             swap.hover_rad_s.swap(a, b);
+            swap.motor_gain.swap(a, b);
             (score(&swap), swap)
         });
         let Some((highest, swap)) = swaps.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
