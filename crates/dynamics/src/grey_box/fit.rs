@@ -7,8 +7,7 @@ use super::parameters::{GreyBoxModel, PARAMETER_COUNT, Parameter};
 use super::prediction::SpeedPrediction;
 use super::problem::Problem;
 use super::residuals::{Wander, square_root};
-use hovertone_vehicle::Axis;
-use hovertone_vehicle::{Ending, Estimate};
+use hovertone_vehicle::{Axis, Ending, Estimate, SOUND_M_S};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 
@@ -18,6 +17,8 @@ const OBSERVATIONS_MIN: usize = 200;
 const OVERLAP_SHARE_MIN: f64 = 0.8;
 /// Standard deviation of an even distribution over its width. *Physics.*
 const EVEN_STD: f64 = 0.288_675;
+/// Standard deviation of the sine of the elevation of a microphone, where all directions are equally probable: 1/√3. *Physics.*
+const SINE_STD: f64 = 0.577_350;
 
 /// Settings of the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,6 +123,24 @@ impl GreyBoxFit {
                 _ => 0.0,
             };
             *std_uncertainty = std_uncertainty.map(|std_uncertainty| std_uncertainty.hypot(by_time));
+        }
+        self
+    }
+
+    /// The same with the Doppler effect of motion that follows the commands. A roll rate p moves a rotor at the lever y up by p y, so that its
+    /// sound rises by `ω p y sin ε / c` at a microphone ε above its plane: this cannot be told from the derivative's gain, nor the effect of the
+    /// climb from the gain of the climb. Where the microphone is, is not known.
+    #[must_use]
+    pub(crate) fn with_doppler_uncertainty(mut self, lever_m: [f64; 2]) -> Self {
+        let per_m_s = self.model.mean_hover_rad_s() * SINE_STD / SOUND_M_S;
+        for (std_uncertainty, parameter) in self.std_uncertainty.iter_mut().zip(Parameter::all()) {
+            let by_motion = match parameter {
+                Parameter::Derivative(Axis::Roll) => lever_m[0] * per_m_s,
+                Parameter::Derivative(Axis::Pitch) => lever_m[1] * per_m_s,
+                Parameter::Proportional(Axis::Climb) => per_m_s,
+                _ => 0.0,
+            };
+            *std_uncertainty = std_uncertainty.map(|std_uncertainty| std_uncertainty.hypot(by_motion));
         }
         self
     }

@@ -33,6 +33,8 @@ pub struct ControlKnowns {
     pub derivative_filter_s: f64,
     /// The mixer of eq 1: rows are rotors, columns loops.
     pub mixer: [[f64; 4]; 4],
+    /// Mean distance of the rotors from the axes of roll and pitch.
+    pub lever_m: [f64; 2],
 }
 
 impl ControlKnowns {
@@ -42,10 +44,14 @@ impl ControlKnowns {
         let (tilt, layout) = (controller.tilt_rad_max.value, vehicle.layout.value);
         let sign = |value: f64| if value.abs() < 1e-9 { 0.0 } else { value.signum() };
         let (directions, spins) = (layout.hub_directions(), layout.spins());
+        let mean_lever_m = |axis: usize| {
+            vehicle.arm_length_m.value * directions.iter().map(|direction| direction[axis].abs()).sum::<f64>() / 4.0
+        };
         Self {
             scales: [tilt, tilt, controller.yaw_rate_rad_s_max.value, controller.climb_m_s_max.value],
             derivative_filter_s: controller.derivative_filter_s.value,
             mixer: std::array::from_fn(|k| [sign(directions[k][1]), -sign(directions[k][0]), -spins[k], 1.0]),
+            lever_m: [mean_lever_m(1), mean_lever_m(0)],
         }
     }
 }
@@ -69,6 +75,8 @@ pub struct LoopInputs {
     pub has_loop: [bool; 4],
     /// The mixer.
     pub mixer: [[f64; 4]; 4],
+    /// As [`ControlKnowns::lever_m`].
+    pub lever_m: [f64; 2],
     /// For each point, whether a log row is near.
     pub is_known: Vec<bool>,
 }
@@ -95,6 +103,7 @@ impl LoopInputs {
             measured_rate: vec![[0.0; 4]; count],
             has_loop: [false; 4],
             mixer: knowns.mixer,
+            lever_m: knowns.lever_m,
             is_known: grid.known(),
         };
         for axis in Axis::ALL {

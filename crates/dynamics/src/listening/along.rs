@@ -105,7 +105,8 @@ pub fn grey_box_from_sound(
         last = Some((fit, observations));
     }
     let (fit, observations) = last.ok_or(GreyBoxStop::NotConverged)?;
-    Ok(SoundFit { fit: fit.with_time_uncertainty(config.echo_std_s), observations, names_nats })
+    let fit = fit.with_time_uncertainty(config.echo_std_s).with_doppler_uncertainty(inputs.lever_m);
+    Ok(SoundFit { fit, observations, names_nats })
 }
 
 /// The speeds of another flight, heard along the prediction of a fitted model, and the prediction. The clocks of log and recording may

@@ -100,25 +100,50 @@ pub(super) fn with_delay(
     best(moved.into_iter(), score).unwrap_or(*model)
 }
 
-/// The model with the gains of each loop in another ratio to the vehicle's, where that makes the sound clearly more likely. `None` if no
-/// loop changes.
+/// The model with the gains of each loop in another ratio to the vehicle's, both gains together and the derivative's alone, with measured values
+/// that are later or earlier, with a part of the time constant as a delay,
+/// and with motors that are alike, where that makes the sound clearly more likely. `None` if nothing
+/// changes.
 fn better_gains(
     model: &GreyBoxModel,
     start: &GreyBoxModel,
     score: impl Fn(&GreyBoxModel) -> f64,
 ) -> Option<GreyBoxModel> {
     let (mut better, mut now) = (*model, score(model));
+    let mut keep_better = |changed: GreyBoxModel, better: &mut GreyBoxModel| {
+        let value = score(&changed);
+        if value > now + BETTER_NATS {
+            (*better, now) = (changed, value);
+        }
+    };
+    // motors that were fitted to rotors with wrong names
+    keep_better(GreyBoxModel { motor_gain: start.motor_gain, ..better }, &mut better);
     for axis in [Axis::Climb, Axis::YawRate, Axis::Roll, Axis::Pitch] {
+        let of_start = &start.loops[axis as usize];
         for factor in GAIN_FACTORS {
             let mut scaled = better;
-            let (gains, of_start) = (&mut scaled.loops[axis as usize], &start.loops[axis as usize]);
+            let gains = &mut scaled.loops[axis as usize];
             gains.proportional = factor * of_start.proportional;
             gains.derivative = factor * of_start.derivative;
-            let value = score(&scaled);
-            if value > now + BETTER_NATS {
-                (better, now) = (scaled, value);
-            }
+            keep_better(scaled, &mut better);
         }
+        for factor in GAIN_FACTORS.into_iter().filter(|_| of_start.derivative != 0.0) {
+            let mut scaled = better;
+            scaled.loops[axis as usize].derivative = factor * of_start.derivative;
+            keep_better(scaled, &mut better);
+        }
+    }
+    for step in DELAYS {
+        let measured_delay_s = better.command_delay_s + DELAY_STEP_S * f64::from(step);
+        keep_better(GreyBoxModel { measured_delay_s, ..better }, &mut better);
+    }
+    // a motor that is slower by as much as the delays are shorter answers nearly the same
+    for factor in TIME_FACTORS {
+        let time_constant_s = factor * start.time_constant_s;
+        let shorter_s = time_constant_s - better.time_constant_s;
+        let (command_delay_s, measured_delay_s) =
+            (better.command_delay_s - shorter_s, better.measured_delay_s - shorter_s);
+        keep_better(GreyBoxModel { time_constant_s, command_delay_s, measured_delay_s, ..better }, &mut better);
     }
     (better != *model).then_some(better)
 }
@@ -328,7 +353,7 @@ pub(super) fn with_names(
     swapped(model, |model| score(heard, order_max, inputs, model, &windows))
 }
 
-/// Swaps the hover speeds of two rotors as long as that makes the sound more likely.
+/// Swaps the hover speeds and the motors of two rotors as long as that makes the sound more likely.
 fn swapped(model: &GreyBoxModel, score: impl Fn(&GreyBoxModel) -> f64) -> Named {
     let mut named = Named { model: *model, margin_nats: f64::INFINITY };
     let mut now = score(model);
@@ -338,6 +363,7 @@ fn swapped(model: &GreyBoxModel, score: impl Fn(&GreyBoxModel) -> f64) -> Named 
         let swaps = pairs.map(|[a, b]| {
             let mut swap = named.model;
             swap.hover_rad_s.swap(a, b);
+            swap.motor_gain.swap(a, b);
             (score(&swap), swap)
         });
         let Some((highest, swap)) = swaps.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };

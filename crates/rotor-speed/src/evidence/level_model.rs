@@ -11,14 +11,12 @@
 //! blade pass later.
 
 use super::levels::NoiseLevel;
-use super::ratio_table::{LineScatter, RatioTable};
+use super::ratio_table::{LineScatter, RatioTable, STEP_DB};
 use super::rotor_lines::RotorLines;
 use super::votes::AUDIBLE_BESIDE_MESH;
 use hovertone_signal::statistics::log_sum_exp;
 use hovertone_vehicle::LineLevels;
 
-/// Step of the levels of the integrals, dB. *Numeric.*
-const STEP_DB: i32 = 3;
 /// Steps of the integral over the loudness, dB. *Numeric.*
 const LOUDNESS_DB: [i32; 22] = [-4, -1, 2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32, 35, 38, 41, 47, 53, 59, 65, 71, 77];
 /// Steps of the integral over the fall. *Numeric.*
@@ -33,6 +31,8 @@ const ECHO_DB: [i32; 3] = [-6, -12, -18];
 const SUM_DB_MIN: i32 = LOUDNESS_DB[0] + SHAFT_DB[0];
 /// Number of sums of loudness and offset. *Numeric.*
 const SUMS: usize = 43;
+/// Logarithm of a likelihood, over the largest, that counts as nothing. *Numeric.*
+const NOTHING_NATS: f64 = -60.0;
 /// Harmonics of the blade pass above which all lines are inaudible: wander smears them, and recorders and codecs cut them. Each is as
 /// probable. *Decision.*
 const LAST_HARMONICS: [u32; 13] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 28, 40, LAST_HARMONIC];
@@ -177,8 +177,7 @@ impl<'a> LevelModel<'a> {
             let inaudible = shaft.largest_nats.map(|nats| self.prior.shaft_inaudible * (-nats).exp());
             let at_loudness = LOUDNESS_DB.iter().zip(&self.loudness_nats).map(|(&loudness_db, weight)| {
                 let mean_db = f64::from(loudness_db) + self.prior.below_db;
-                let below_nats: f64 =
-                    below.iter().map(|line| self.below.from(line.row, mean_db - line.floor_db).above(0)).sum();
+                let below_nats: f64 = below.iter().map(|line| self.below.at(line.row, mean_db - line.floor_db)).sum();
                 let of_blades = self.of_blades(&even, &odd, loudness_db);
                 let of_shaft = self.of_unlike_blades(&shaft, &inaudible, loudness_db);
                 let up_to = shares_of_last.iter().zip(of_blades).zip(of_shaft);
@@ -215,8 +214,7 @@ impl<'a> LevelModel<'a> {
     }
 }
 
-/// Likelihood ratios of the lines of one class, over the largest one up to each of the last harmonics: one that is `e⁻⁷⁰⁰` of it counts as
-/// nothing.
+/// Likelihood ratios of the lines of one class, over the largest one up to each of the last harmonics.
 struct Likelihoods {
     /// The largest one or that of no line, whichever is larger, as a logarithm.
     largest_nats: UpTo,
@@ -225,9 +223,19 @@ struct Likelihoods {
 }
 
 impl Likelihoods {
-    fn of(nats: &[UpTo]) -> Self {
-        let largest_nats: UpTo = std::array::from_fn(|last| nats.iter().map(|up_to| up_to[last]).fold(0.0, f64::max));
-        let of_sum = nats.iter().map(|up_to| std::array::from_fn(|last| (up_to[last] - largest_nats[last]).exp()));
+    fn of(Sums { up_to, distinct }: &Sums) -> Self {
+        let largest_nats: UpTo = std::array::from_fn(|last| up_to.iter().map(|sum| sum[last]).fold(0.0, f64::max));
+        let of_sum = up_to.iter().map(|sum| {
+            let over_largest = |last: usize| match sum[last] - largest_nats[last] {
+                nats if nats < NOTHING_NATS => 0.0,
+                nats => nats.exp(),
+            };
+            let mut of_last = [0.0; LAST_HARMONICS.len()];
+            (0..*distinct).for_each(|last| of_last[last] = over_largest(last));
+            let whole = of_last[distinct - 1];
+            of_last[*distinct..].fill(whole);
+            of_last
+        });
         Self { largest_nats, of_sum: of_sum.collect() }
     }
 }
@@ -262,7 +270,7 @@ fn falls(prior: &LineLevels) -> Vec<(Fall, f64)> {
 
 /// Index of a sum of loudness and offset.
 fn sum_index(sum_db: i32) -> usize {
-    ((sum_db - SUM_DB_MIN) / STEP_DB) as usize
+    (sum_db - SUM_DB_MIN) as usize / STEP_DB
 }
 
 /// One line, with the row of its measured level.
@@ -299,9 +307,16 @@ fn lines_of(table: &mut RatioTable, levels: &[OrderLevel], is_wanted: impl Fn(u3
     wanted.map(|level| Line { order: level.order, row: table.row(level.level_db), floor_db: level.floor_db }).collect()
 }
 
-/// Sums of the ratios of the lines, for each sum of loudness and offset, where the levels fall by `fall` dB for each tenth of a decade of the
-/// order. The orders rise.
-fn sums(table: &RatioTable, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpTo> {
+/// Sums of the ratios of the lines of one class.
+struct Sums {
+    /// For each sum of loudness and offset.
+    up_to: Vec<UpTo>,
+    /// Number of last harmonics with sums of their own: beyond, there are no more lines.
+    distinct: usize,
+}
+
+/// The sums where the levels fall with the order. The orders rise.
+fn sums(table: &RatioTable, lines: &[Line], blades: u32, fall: &Fall) -> Sums {
     let mut up_to = vec![[0.0; LAST_HARMONICS.len()]; SUMS];
     let (mut sums, mut next) = ([0.0; SUMS], 0);
     let mut keep = |sums: &[f64; SUMS], last: usize| {
@@ -313,13 +328,10 @@ fn sums(table: &RatioTable, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpT
             next += 1;
         }
         let fall_db = line.floor_db + fall.db(f64::from(line.order) / f64::from(blades));
-        let ratios = table.from(line.row, f64::from(SUM_DB_MIN) - fall_db);
-        for (sum, step) in sums.iter_mut().zip(0..) {
-            *sum += ratios.above(STEP_DB * step);
-        }
+        table.add_to(&mut sums, line.row, f64::from(SUM_DB_MIN) - fall_db);
     }
     (next..LAST_HARMONICS.len()).for_each(|last| keep(&sums, last));
-    up_to
+    Sums { up_to, distinct: next + 1 }
 }
 
 /// Weights of the offsets of shaft lines: blades are alike, or unlike.

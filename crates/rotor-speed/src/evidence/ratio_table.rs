@@ -6,6 +6,10 @@ use hovertone_vehicle::LineLevels;
 
 /// Mean levels of a line that the tables hold, dB, in steps of 1 dB. *Numeric.*
 const LINE_DB: std::ops::RangeInclusive<i32> = -45..=95;
+/// Number of these steps. *Numeric.*
+const LINE_STEPS: usize = 141;
+/// Step of the mean levels of an integral, dB. *Numeric.*
+pub(super) const STEP_DB: usize = 3;
 /// Steps of a measured level to a dB. *Numeric.*
 const STEPS_PER_DB: f64 = 16.0;
 /// Number of these steps: to 90 dB. *Numeric.*
@@ -35,7 +39,7 @@ pub(super) struct RatioTable {
     weights: [f64; DEVIATIONS.len()],
     /// For each mean level, the levels in noise of the lines that scatter about it, and of those in a notch.
     scattered_db: Vec<[[f64; DEVIATIONS.len()]; 2]>,
-    /// `nats[measured level][mean level]`; empty where it was not asked for.
+    /// `nats[measured level]`, with the mean levels in the order of [`in_steps`]; empty where it was not asked for.
     nats: Vec<Vec<f64>>,
 }
 
@@ -76,26 +80,48 @@ impl RatioTable {
             let in_notch = if self.notched > 0.0 { self.notched * mean_density(in_notch_db) } else { 0.0 };
             ((whole + in_notch) / nothing + self.missing).ln()
         };
-        self.scattered_db.iter().map(ratio).collect()
+        let ratios: Vec<f64> = self.scattered_db.iter().map(ratio).collect();
+        in_steps(&ratios)
     }
 
-    /// The ratios of a row, from a mean level upwards.
-    pub(super) fn from(&self, row: usize, mean_db: f64) -> RatiosFrom<'_> {
-        RatiosFrom { nats: &self.nats[row], place: mean_db.round() as i32 - LINE_DB.start() }
+    /// The ratio of a row at a mean level; outside of the table that at its end.
+    pub(super) fn at(&self, row: usize, mean_db: f64) -> f64 {
+        self.nats[row][place_in_steps((place(mean_db).max(0) as usize).min(LINE_STEPS - 1))]
+    }
+
+    /// Adds to each sum the ratio of a row, from a mean level upwards in steps of [`STEP_DB`]; outside of the table that at its end.
+    pub(super) fn add_to(&self, sums: &mut [f64], row: usize, mean_db: f64) {
+        let nats = &self.nats[row];
+        let place = place(mean_db);
+        let (last, step) = (LINE_STEPS as i32 - 1, STEP_DB as i32);
+        // the first sums lie below the table, and the last ones above
+        let below = (((step - 1 - place).max(0) / step) as usize).min(sums.len());
+        let inside = (((last - place + step).max(0) / step) as usize).clamp(below, sums.len());
+        let (under, rest) = sums.split_at_mut(below);
+        let (within, over) = rest.split_at_mut(inside - below);
+        under.iter_mut().for_each(|sum| *sum += nats[0]);
+        if !within.is_empty() {
+            let from = place_in_steps((place + step * below as i32) as usize);
+            within.iter_mut().zip(&nats[from..]).for_each(|(sum, ratio)| *sum += ratio);
+        }
+        let highest = nats[place_in_steps(LINE_STEPS - 1)];
+        over.iter_mut().for_each(|sum| *sum += highest);
     }
 }
 
-/// The ratios of one measured level, from a mean level upwards.
-pub(super) struct RatiosFrom<'a> {
-    nats: &'a [f64],
-    place: i32,
+/// Place of a mean level in the table, which may be outside.
+fn place(mean_db: f64) -> i32 {
+    mean_db.round() as i32 - LINE_DB.start()
 }
 
-impl RatiosFrom<'_> {
-    /// The ratio so many dB above; outside of the table that at its end.
-    pub(super) fn above(&self, db: i32) -> f64 {
-        self.nats[(self.place + db).clamp(0, LINE_DB.end() - LINE_DB.start()) as usize]
-    }
+/// Values of all mean levels, in an order in which those [`STEP_DB`] apart follow each other: they are added together.
+fn in_steps(values: &[f64]) -> Vec<f64> {
+    (0..STEP_DB).flat_map(|first| values.iter().skip(first).step_by(STEP_DB).copied()).collect()
+}
+
+/// Place of a mean level in that order.
+fn place_in_steps(place: usize) -> usize {
+    place % STEP_DB * LINE_STEPS.div_ceil(STEP_DB) + place / STEP_DB
 }
 
 /// Normal density but for its factor.
@@ -111,4 +137,27 @@ const STUDENT_FACTOR: f64 = 0.386_699;
 fn noise_density(deviation_db: f64, std_db: f64) -> f64 {
     let base = 1.0 / (1.0 + (deviation_db / std_db).powi(2) / 8.0);
     STUDENT_FACTOR / std_db * base.powi(4) * base.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ratios_are_added_from_below_to_above_the_table() {
+        let noise = NoiseLevel { mean_db: -1.0, std_db: 1.0, lines_share: 0.05, places: 180.0 };
+        let prior = LineLevels::default();
+        let mut table =
+            RatioTable::new(noise, &LineScatter { std_db: 4.0, missing: 0.1, notched: 0.1, prior: &prior }, 0.05);
+        let row = table.row(12.0);
+        assert!(table.at(row, 12.0) > table.at(row, -20.0));
+        for mean_db in [-200.0, -170.4, -47.0, -46.0, -45.0, -44.0, -3.3, 20.0, 93.0, 95.0, 96.0, 200.0] {
+            let mut sums = [1.0; 43];
+            table.add_to(&mut sums, row, mean_db);
+            for (step, sum) in sums.iter().enumerate() {
+                let expected = 1.0 + table.at(row, mean_db.round() + (STEP_DB * step) as f64);
+                assert_eq!(*sum, expected, "{mean_db} dB, step {step}");
+            }
+        }
+    }
 }
