@@ -182,7 +182,8 @@ fn broken_files_end_soon_and_understandably() {
         let started = Instant::now();
         // one rotor: the time of a separation says nothing about broken files
         let run = speed(&[folder.join(file)], &["--rotors", "1"]).ends_with(code);
-        assert!(started.elapsed() < Duration::from_secs(2), "{file} took {:?}", started.elapsed());
+        // ten times what a busy machine needs: a reader that hangs takes longer than any limit
+        assert!(started.elapsed() < Duration::from_secs(20), "{file} took {:?}", started.elapsed());
         let line = &run.json_lines()[0];
         match code {
             1 => assert!(line["reason"].as_str().unwrap().len() > 20 && run.stderr.contains("error:"), "{file}"),
