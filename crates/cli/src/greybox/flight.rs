@@ -149,8 +149,8 @@ impl FlownLog {
         Ok(Self { log, inputs, speeds_rad_s, loss: control.loss, moved_s: 0.0, left_out })
     }
 
-    /// The failure of a flight in which no command changes; `None` where one does.
-    fn without_doublets(&self, path: &Path) -> Option<Failure> {
+    /// Fails where no command changes.
+    fn require_doublets(&self, path: &Path) -> Result<(), Failure> {
         let range = |commands: &[f64]| {
             let finite = || commands.iter().copied().filter(|command| command.is_finite());
             finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min)
@@ -159,7 +159,7 @@ impl FlownLog {
         let what = format!(
             "no doublets were flown: no command of this log changes by {COMMAND_CHANGE_MIN} or more (1 is the whole stick)"
         );
-        (!is_flown).then(|| Failure::failed(what, FLY_DOUBLETS, path))
+        if is_flown { Ok(()) } else { Err(Failure::failed(what, FLY_DOUBLETS, path)) }
     }
 
     /// Moves the clock of the log to where the sound follows the log. Returns whether it follows it anywhere.
@@ -250,11 +250,7 @@ pub(crate) fn fit_of(
     progress: &Progress,
 ) -> Result<Heard, Failure> {
     let start = vehicle.start();
-    let without_doublets = flown.without_doublets(&files.log);
-    let stopped = |stop: GreyBoxStop, without_doublets: Option<Failure>| {
-        if let Some(failure) = without_doublets.filter(|_| stop == GreyBoxStop::NotConverged) {
-            return failure;
-        }
+    let stopped = |stop: GreyBoxStop| {
         let what = match stop {
             GreyBoxStop::NotConverged => format!("no model of the vehicle \"{}\" explains this flight", vehicle.id()),
             _ => stop.to_string(),
@@ -277,14 +273,12 @@ pub(crate) fn fit_of(
         None => {
             let observations = logged_observations(flown, files)?;
             let fit = grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default());
-            let (fit, without_doublets) = match fit {
-                Ok(fit) => (fit, without_doublets),
-                Err(stop) => return Err(stopped(stop, without_doublets)),
-            };
-            let change = checked(&observations, &fit.prediction(&flown.inputs)).map(|checked| checked.change_share);
-            if let Some(failure) = without_doublets {
-                return Err(failure);
+            // a log that is too short is told first
+            if matches!(fit, Ok(_) | Err(GreyBoxStop::NotConverged)) {
+                flown.require_doublets(&files.log)?;
             }
+            let fit = fit.map_err(stopped)?;
+            let change = checked(&observations, &fit.prediction(&flown.inputs)).map(|checked| checked.change_share);
             if change.is_some_and(|change| change < SPEED_CHANGE_MIN) {
                 let what = "the rotor speeds of this log never change, so they show no model";
                 return Err(Failure::failed(what, FLY_DOUBLETS, &files.log));
@@ -293,15 +287,12 @@ pub(crate) fn fit_of(
         }
         Some(recording) => {
             let lines = heard_lines(recording, flown, &start, vehicle, hearing, progress)?;
-            if let Some(failure) = without_doublets {
-                return Err(failure);
-            }
+            flown.require_doublets(&files.log)?;
             if !flown.align(&lines, &start) {
                 return Err(not_followed(&files.log));
             }
             let better = better_rotor(recording, &vehicle.config()?, hearing, progress)?;
-            let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default())
-                .map_err(|stop| stopped(stop, None))?;
+            let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).map_err(stopped)?;
             let SoundFit { fit, observations, names_nats } = heard;
             Ok(Heard { fit, observations, names_nats: Some(names_nats), better })
         }
