@@ -93,9 +93,9 @@ pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
 /// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
 fn trust(record: &GreyBoxRecord) -> &'static str {
     if record.are_speeds_logged {
-        "the ± is too small: in simulated flights, only 55 to 87 % of the errors were within it, and 95 % should"
+        "in simulated flights, 90 to 100 % of the errors were within the ±, and 95 % should be"
     } else {
-        "the ± is too small, and a single gain can be wrong: in simulated flights, only 33 to 56 % of the errors were within the ±, and 95 % should; compare with another flight (--check)"
+        "the ± is a little too small: in simulated flights outdoors, 83 to 91 % of the errors were within it, and 95 % should be; compare with another flight (--check)"
     }
 }
 
