@@ -28,9 +28,8 @@ impl GivenFacts {
             (self.vehicle, "the vehicle"),
             (self.blades && !self.vehicle, "the blades"),
             (self.gear && !self.vehicle, "the gear"),
-            (self.diameter && self.mass && !self.vehicle, "the facts about the vehicle"),
-            (self.diameter && !self.mass && !self.vehicle, "the diameter"),
-            (self.mass && !self.diameter && !self.vehicle, "the mass"),
+            (self.diameter && !self.vehicle, "the diameter"),
+            (self.mass && !self.vehicle, "the mass"),
             (self.band, "the band"),
         ];
         let given: Vec<&str> = facts.into_iter().filter(|(is_given, _)| *is_given).map(|(_, fact)| fact).collect();
@@ -103,7 +102,7 @@ mod tests {
         let alone = GivenFacts { blades: true, mass: true, band: true, ..nothing };
         assert_eq!(alone.in_words("or"), "the blades, the mass or the band");
         let by_numbers = GivenFacts { diameter: true, mass: true, ..nothing };
-        assert_eq!(by_numbers.in_words("and"), "the facts about the vehicle");
+        assert_eq!(by_numbers.in_words("and"), "the diameter and the mass");
     }
 
     /// One warning would ask for a wider band, another for a narrower one, and a third for none.

@@ -56,6 +56,15 @@ fn a_wrong_number_of_blades_or_another_vehicle_is_said() {
 }
 
 #[test]
+fn a_mass_at_which_no_rotor_is_heard_is_blamed_and_not_the_recording() {
+    let Some(folder) = recordings("small-multirotors") else { return };
+    let file = folder.join("DRONE_001.wav");
+    let facts = ["--blades", "2", "--rotors", "4", "--mass-kg", "0.05", "--diameter-m", "0.3"];
+    let stderr = hovertone(&[&["speed", text(&file)], &facts[..]].concat()).stderr;
+    assert!(stderr.contains("no such rotor is heard. But one with 2 blades may turn at 8"), "{stderr}");
+}
+
+#[test]
 fn a_chosen_span_of_the_motor_step_has_its_speed() {
     let Some(folder) = recordings("motor-step") else { return };
     let run = speed(&files_in(&folder, ".wav"), &["--from", "14", "--to", "17"]).ends_with(0);

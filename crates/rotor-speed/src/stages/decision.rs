@@ -1,6 +1,7 @@
 //! Stage 5: lines → decision whether their speed is held, and which rotors there are. It makes two more passes where several rotors are
 //! separated.
 
+use super::left_out::heard_instead;
 use super::rotors::heard_rotors;
 use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
@@ -40,7 +41,11 @@ pub(crate) fn decision_from_lines(
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
     let restless_s = restless_s(hover, &surveyed.survey, &candidates.map);
     let silence = |reason: NoTone| Silence { reason, hover: hover.clone(), warnings: lines.warnings.clone() };
-    let lost = || silence(or_mains_hum(no_series(&config.tone, None), &surveyed.survey));
+    let sample_rate_hz = passes.sample_rate_hz();
+    let lost = || {
+        let instead = heard_instead(surveyed, sample_rate_hz, config);
+        silence(or_mains_hum(no_series(&config.tone, instead), &surveyed.survey))
+    };
     let wants_rotors = config.methods().any(|method| method == Method::Separated);
     // a faint rotor must keep its phase; where several sound, each keeps its own
     let keeps_phase =
