@@ -129,6 +129,12 @@ impl Excess {
         f64::from(ZERO_PAD_FACTOR) * self.bin_hz
     }
 
+    /// Time from the first frame to the end of the last one, where frames are long.
+    pub(crate) fn length_s(&self) -> f64 {
+        let ends = self.frames.first().zip(self.frames.last());
+        ends.map_or(0.0, |(first, last)| last.centre_s - first.centre_s + LONG_S)
+    }
+
     /// Number of short hops from each frame to the next. The first is 1.
     pub(crate) fn hops(&self) -> Vec<usize> {
         let hops = self.frames.windows(2).map(|pair| ((pair[1].centre_s - pair[0].centre_s) / HOP_S).round() as usize);

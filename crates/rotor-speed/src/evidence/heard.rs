@@ -15,6 +15,7 @@ use super::search::{Multiple, Search, VOTES_SHARE_MIN};
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
+use crate::harmonic::STEADY_S_MIN;
 use std::ops::RangeInclusive;
 
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
@@ -23,9 +24,12 @@ const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
 const VOICES_MAX: u32 = 2;
 
 /// Compares the hypotheses in two looks at the same sound: without a voice, where one sounds; in long frames alone, where short ones hear no rotor:
-/// a faint, steady one. `None` where no rotor is heard.
+/// a faint, steady one, which must keep its phase, so that a shorter sound cannot hold it. `None` where no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     beliefs_beside_voices(looks, wanted, config).or_else(|| {
+        if looks.long.length_s() < STEADY_S_MIN {
+            return None;
+        }
         let of_long_frames = Looks { short: looks.long.clone(), long: looks.long.clone() };
         let of_any_votes = EvidenceConfig { votes_nats_min: f64::MIN, ..*config };
         match beliefs_of(&of_long_frames, wanted, &of_any_votes)? {

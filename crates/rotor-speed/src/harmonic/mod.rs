@@ -69,7 +69,7 @@ const NEAR_TURNS: f64 = 0.02;
 const INFORMATION_MIN: f64 = 1e-2;
 /// Smallest length of a steady block, s: a tone too weak to be a line in any frame is a tone if lines keep their phase for this long.
 /// *Decision.*
-const STEADY_S_MIN: f64 = 1.0;
+pub(crate) const STEADY_S_MIN: f64 = 1.0;
 /// Likelihood of a steady block, in units of the likelihood that stands out of the noise. *Decision.*
 const STEADY_TIMES: f64 = 2.0;
 /// Likelihood that a search over 100 000 resolution cells finds in noise; a steady block must reach this in addition. *Decision.*
