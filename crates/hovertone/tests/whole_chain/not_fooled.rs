@@ -5,6 +5,7 @@ use hovertone::sound::Signal;
 use hovertone::speed::{Config, NoTone, Outcome, ToneConfig, speed_from_source};
 use hovertone_vehicle::presets;
 use std::f64::consts::TAU;
+use std::thread;
 
 /// Every way in which a user can say which tone: blades, a gear, both, a vehicle.
 fn asked() -> Vec<(String, Config)> {
@@ -44,22 +45,32 @@ fn fooled_percent_max(kind: &Kind) -> usize {
     }
 }
 
+/// The answers to sounds of a kind, asked in all ways.
+fn fooled_by(kind: &Kind, asked: &[(String, Config)]) -> Vec<String> {
+    let mut fooled = Vec::new();
+    for seed in 0..seeds() {
+        let sound = kind.sound(seed, 8.0);
+        for (name, config) in asked {
+            let analysis = analyse(sound.clone(), config);
+            if let Outcome::Ok(tone) = &analysis.outcome {
+                fooled.push(format!("{name}, seed {seed}: {:.1} rev/s", tone.speeds[0].speed.rev_s()));
+            }
+        }
+    }
+    fooled
+}
+
 #[test]
 #[ignore = "exam: many sounds, asked in many ways"]
 fn what_is_no_rotor_is_not_answered_with_a_speed() {
-    let asked = asked();
+    let asked = &asked();
+    // each kind in a thread of its own: this test runs longest, and alone in the end
+    let answers: Vec<Vec<String>> = thread::scope(|scope| {
+        let workers: Vec<_> = KINDS.iter().map(|kind| scope.spawn(move || fooled_by(kind, asked))).collect();
+        workers.into_iter().map(|worker| worker.join().expect("no panic")).collect()
+    });
     let mut faults = Vec::new();
-    for kind in &KINDS {
-        let mut fooled = Vec::new();
-        for seed in 0..seeds() {
-            let sound = kind.sound(seed, 8.0);
-            for (name, config) in &asked {
-                let analysis = analyse(sound.clone(), config);
-                if let Outcome::Ok(tone) = &analysis.outcome {
-                    fooled.push(format!("{name}, seed {seed}: {:.1} rev/s", tone.speeds[0].speed.rev_s()));
-                }
-            }
-        }
+    for (kind, fooled) in KINDS.iter().zip(answers) {
         let of = asked.len() * seeds() as usize;
         println!("{:20} {:3} of {of}", kind.name, fooled.len());
         if 100 * fooled.len() > fooled_percent_max(kind) * of {
