@@ -312,7 +312,10 @@ fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit, are_split: bool) ->
 /// Warnings about a fit of the rows of a table. `gravity_m_s2` is given where the rows are masses that hover.
 pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s2: Option<f64>) -> Vec<ThrustWarning> {
     let mut warnings = warnings_of_misfits(&fit.points, gravity_m_s2);
-    let exchanged = gravity_m_s2.and_then(|_| exchanged_rows(points));
+    // a row that is left out contradicts nothing
+    let is_kept = |(point, verdict): (&ForcePoint, &PointVerdict)| (!verdict.is_gross).then(|| point.clone());
+    let kept: Vec<ForcePoint> = points.iter().zip(&fit.points).filter_map(is_kept).collect();
+    let exchanged = gravity_m_s2.and_then(|_| exchanged_rows(&kept));
     let is_contradicted = exchanged.is_some();
     warnings.extend(exchanged);
     let of_range = range_warnings(points, fit, are_split_points(points));

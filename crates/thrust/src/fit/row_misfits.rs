@@ -44,3 +44,25 @@ fn names_of(misfits: &[&PointVerdict]) -> Vec<String> {
     others.sort_by_key(|(index, _)| *index);
     worst.into_iter().chain(others).map(|(_, point)| point.name.clone()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_long_list_the_five_worst_rows_come_first_in_their_order() {
+        let point = |(row, share): (usize, f64)| PointVerdict {
+            name: format!("line {row}"),
+            deviation_share: Some(share),
+            thrust_constant_of_others_n_s2: None,
+            p_value: None,
+            fits: Some(false),
+            is_gross: false,
+            force_that_fits_n: None,
+            force_that_fits_std_n: None,
+        };
+        let all = [(2, -0.05), (3, 0.02), (5, 0.3), (7, -0.1), (10, 0.2), (14, -0.15)].map(point);
+        let names = names_of(&all.iter().collect::<Vec<_>>());
+        assert_eq!(names, ["line 2", "line 5", "line 7", "line 10", "line 14", "line 3"]);
+    }
+}
