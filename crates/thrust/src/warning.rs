@@ -387,8 +387,8 @@ impl fmt::Display for ThrustWarning {
 /// What to check where loads do not fit each other.
 fn disagree_hint(has_added_mass: bool) -> &'static str {
     if has_added_mass {
-        "check whether two masses are exchanged, and which recording belongs to which load; is each added mass (added_mass_kg) only what \
-         was added on top of the vehicle?"
+        "check whether two masses are exchanged, and which recording belongs to which load; is each added mass (added_mass_kg) \
+         without the mass of the vehicle?"
     } else {
         "check whether two masses are exchanged, and which recording belongs to which load"
     }
