@@ -40,6 +40,18 @@ impl GivenFacts {
         }
     }
 
+    /// Advice that asks for a check of the number of blades, in words for the facts that were given: no gear is blamed that nobody gave.
+    fn in_given_words(self, advice: &str) -> String {
+        let of_tone = match (self.vehicle, self.blades, self.gear) {
+            (true, ..) => "the vehicle",
+            (false, true, true) => "the blades and the gear",
+            (false, false, true) => "the gear",
+            (false, _, false) => "the number of blades",
+        };
+        let of_tone_or_vehicle = if self.vehicle || !self.gear { "the vehicle and its blades" } else { of_tone };
+        advice.replace("the number of blades", of_tone).replace("the vehicle and its blades", of_tone_or_vehicle)
+    }
+
     /// Advice for each warning about one recording. It asks for one change of a window or a band at most, since that may mend all.
     pub fn hints(self, warnings: &[&Warning]) -> Vec<String> {
         let is_band_wrong = self.band
@@ -68,13 +80,13 @@ impl GivenFacts {
             }
             warning if is_band_wrong && is_about_ridge(warning) => "leave --band out, or give a wider one".to_owned(),
             Warning::FewHarmonicsAgree { .. } if self.band => {
-                format!("{}, or give a narrower --band", warning.hint())
+                format!("{}, or give a narrower --band", self.in_given_words(warning.hint()))
             }
             Warning::SeveralLines { .. } if self.band => {
                 "hovertone follows the rotor that is loudest at each moment; to follow one rotor, give a narrower --band"
                     .to_owned()
             }
-            other => other.hint().to_owned(),
+            other => self.in_given_words(other.hint()),
         }
         };
         warnings.iter().map(hint).collect()
@@ -105,11 +117,25 @@ mod tests {
         assert_eq!(by_numbers.in_words("and"), "the diameter and the mass");
     }
 
+    #[test]
+    fn a_gear_is_blamed_only_where_one_was_given() {
+        let left_out = Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() };
+        let hardly_heard = Warning::ManyGaps { gap_share: 0.9 };
+        let hints = |given: GivenFacts| given.hints(&[&left_out, &hardly_heard]);
+        let nothing = GivenFacts::default();
+        assert!(hints(nothing).iter().all(|hint| !hint.contains("gear")), "{:?}", hints(nothing));
+        assert!(hints(nothing)[0].ends_with("check the number of blades"), "{:?}", hints(nothing));
+        let geared = GivenFacts { blades: true, gear: true, ..nothing };
+        assert!(hints(geared).iter().all(|hint| hint.contains("check the blades and the gear")), "{:?}", hints(geared));
+        let vehicle = GivenFacts { vehicle: true, ..geared };
+        assert!(hints(vehicle).iter().all(|hint| hint.contains("check the vehicle")), "{:?}", hints(vehicle));
+    }
+
     /// One warning would ask for a wider band, another for a narrower one, and a third for none.
     #[test]
     fn advice_about_a_band_does_not_contradict_itself() {
         let warnings = [
-            Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5 },
+            Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5, band_hz_low: 140.0, band_hz_high: 165.0 },
             Warning::FewHarmonicsAgree { used: 1, of: 3 },
             Warning::ManyGaps { gap_share: 0.4 },
             Warning::SeveralLines { spread_share: 0.02 },

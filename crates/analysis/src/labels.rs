@@ -135,8 +135,13 @@ pub enum NotTold {
         /// Time between start of the recording and hover.
         before_hover_s: f64,
     },
-    /// Several assignments fit the log.
+    /// Several assignments fit the motors of the log.
     SeveralFit {
+        /// Number of tracks without a label.
+        tracks: usize,
+    },
+    /// Several assignments fit the body rates of the log, which has no motors.
+    SeveralFitRates {
         /// Number of tracks without a label.
         tracks: usize,
     },
@@ -203,6 +208,9 @@ impl NotTold {
             Self::SpinUpTooLong { .. } => "with --from, begin shortly before the motors start",
             Self::SeveralFit { .. } => {
                 "record a longer hover with small rolls and pitches: they make the speeds of the rotors differ"
+            }
+            Self::SeveralFitRates { .. } => {
+                "record longer, and rock the vehicle gently left-right and forward-back: each movement shows where the rotors are that make it"
             }
             Self::OtherChannels { .. } => {
                 "give the position of each channel's microphone, in the order of the channels"
@@ -276,6 +284,7 @@ impl fmt::Display for NotTold {
                 )
             }
             Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors, several motors of the log fit"),
+            Self::SeveralFitRates { tracks } => f.write_str(&several_places_text(*tracks)),
             Self::OtherChannels { channels, microphones } => {
                 write!(
                     f,
@@ -302,6 +311,10 @@ impl fmt::Display for NotTold {
     }
 }
 
+fn several_places_text(tracks: usize) -> String {
+    format!("for {tracks} of the rotors, the movements in the log fit more than one place on the vehicle")
+}
+
 fn rotors_are(count: usize) -> String {
     match count {
         0 => "no rotor is".to_owned(),
@@ -311,6 +324,13 @@ fn rotors_are(count: usize) -> String {
 }
 
 impl RotorLabels {
+    /// That rotors could not be named, and why; `None` where all have a label.
+    pub fn why_not_all(&self) -> Option<String> {
+        let reason = self.not_told.as_ref()?;
+        let who = if self.rotors.iter().any(Option::is_some) { "not all rotors" } else { "no rotor" };
+        Some(format!("{who} could be named: {reason}"))
+    }
+
     /// Labels that are all missing.
     pub fn not_told(source: LabelSource, tracks: usize, reason: NotTold) -> Self {
         Self {
@@ -321,5 +341,23 @@ impl RotorLabels {
             rotors: vec![None; tracks],
             not_told: Some(reason),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_tells_whether_any_rotor_has_a_name() {
+        let reason = NotTold::SeveralFitRates { tracks: 4 };
+        let none = RotorLabels::not_told(LabelSource::BodyRates, 4, reason);
+        let said = none.why_not_all().unwrap_or_default();
+        assert!(said.starts_with("no rotor could be named: for 4 of the rotors, the movements in the log"), "{said}");
+        let first = RotorLabel { number: 1, name: "motor 1".to_owned(), probability: 0.99 };
+        let some = RotorLabels { rotors: vec![Some(first), None], ..none.clone() };
+        let said = some.why_not_all().unwrap_or_default();
+        assert!(said.starts_with("not all rotors could be named: "), "{said}");
+        assert_eq!(RotorLabels { not_told: None, ..some }.why_not_all(), None);
     }
 }

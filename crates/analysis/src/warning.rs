@@ -15,6 +15,10 @@ pub enum Warning {
         harmonic: u32,
         /// Share of the frames whose peak is at an edge of the band.
         frames_share: f64,
+        /// Lower edge of the band.
+        band_hz_low: f64,
+        /// Upper edge of the band.
+        band_hz_high: f64,
     },
     /// A harmonic was not used.
     HarmonicLeftOut {
@@ -113,6 +117,15 @@ impl Warning {
         matches!(self, Self::ManyGaps { gap_share } if 1.0 - gap_share < HEARD_SHARE_MIN)
     }
 
+    /// Whether another warning about the same recording tells it already: one for each harmonic would say the same several times.
+    pub fn is_told_by(&self, others: &[Self]) -> bool {
+        others.iter().any(|other| match (self, other) {
+            (Self::RidgeOnBandEdge { harmonic, .. }, Self::RidgeOnBandEdge { harmonic: lower, .. }) => lower < harmonic,
+            (Self::FewHarmonicsAgree { used, of }, Self::HarmonicLeftOut { harmonic: 1, .. }) => 2 * used >= *of,
+            _ => false,
+        })
+    }
+
     /// Whether it concerns the way in which one tone is followed, and nothing that the recording holds.
     pub fn is_about_followed_tone(&self) -> bool {
         match self {
@@ -136,24 +149,25 @@ impl Warning {
     /// Advice to the user, where no band was given; for given facts see [`GivenFacts::hints`](crate::GivenFacts::hints).
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::RidgeOnBandEdge { .. } => "the true tone may lie outside: check the number of blades or the gear",
+            Self::RidgeOnBandEdge { .. } => "check the number of blades",
             Self::HarmonicLeftOut { harmonic: 1, .. } => {
-                "the speed comes from the other harmonics; check the blades or the gear"
+                "the speed comes from the multiples of the tone (its harmonics); if it looks wrong, check the number of blades"
             }
             Self::HarmonicLeftOut { .. } => "you need to do nothing: the speed comes from the other harmonics",
             Self::BandCutByCodec { .. } => {
                 "to use the higher harmonics too, record without compression or at a higher bit rate"
             }
-            Self::FewHarmonicsAgree { .. } => {
-                "another sound may be mixed in: check the blades or the gear, or use the tone alone with --harmonics 1"
+            Self::FewHarmonicsAgree { used, of } if 2 * used < *of => {
+                "another sound may be mixed in: check the number of blades, or use the tone alone with --harmonics 1"
             }
+            Self::FewHarmonicsAgree { .. } => "another sound may be mixed in: check the number of blades",
             Self::OtherSteadySpeed { .. } | Self::HoversDiffer { .. } => {
                 "choose the part you mean with --from and --to"
             }
             Self::HoverShorterThanSample { .. } => "record a longer hover, or write a smaller length_s under [samples]",
             _ if self.is_hardly_heard() => {
-                "do not use this speed yet; first check the vehicle, the blades and the gear; if they are right, move the microphone nearer, \
-                 or choose the clear part with --from and --to"
+                "do not use this speed yet; first check the vehicle and its blades; if they are right, move the microphone nearer, or choose \
+                 the clear part with --from and --to"
             }
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { needed_s: Some(_), .. } => {
@@ -188,12 +202,11 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::RidgeOnBandEdge { harmonic, frames_share } => {
-                write!(
-                    f,
-                    "for {:.0} % of the time, harmonic {harmonic} of the tone lies at the edge of the band that is searched",
-                    100.0 * frames_share
-                )
+            Self::RidgeOnBandEdge { harmonic, frames_share, band_hz_low, band_hz_high } => {
+                f.write_str(&on_edge_text(*harmonic, *frames_share, [*band_hz_low, *band_hz_high]))
+            }
+            Self::HarmonicLeftOut { harmonic: 1, reason } => {
+                write!(f, "the lowest line of the tone is not used: {reason}")
             }
             Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is not used: {reason}"),
             Self::BandCutByCodec { above_hz } => {
@@ -208,7 +221,7 @@ impl fmt::Display for Warning {
                     let show = if *used == 1 { "shows" } else { "show" };
                     write!(f, "only {used} of {of} harmonics (multiples of the tone) {show} the same speed")
                 } else {
-                    f.write_str("the tone itself shows another speed than its harmonics")
+                    f.write_str("the lowest line of the tone shows another speed than its multiples")
                 }
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
@@ -268,6 +281,16 @@ impl fmt::Display for Warning {
     }
 }
 
+/// A harmonic that lies at an edge of its band for a share of the time.
+fn on_edge_text(harmonic: u32, frames_share: f64, [low_hz, high_hz]: [f64; 2]) -> String {
+    let tone = if harmonic == 1 { "the tone".to_owned() } else { format!("harmonic {harmonic} of the tone") };
+    format!(
+        "for {:.0} % of the time, {tone} lies at the edge of the band that is searched ({low_hz:.0} to {high_hz:.0} Hz), so the true tone may \
+        lie outside",
+        100.0 * frames_share
+    )
+}
+
 fn others_heard_text(expected: u32) -> String {
     match expected {
         1 => "one rotor alone is expected, but other rotors are heard too".to_owned(),
@@ -297,6 +320,34 @@ mod tests {
     fn said(resolved: usize, has_mean: bool, is_assumed: bool) -> String {
         let warning = Warning::RotorsNotApart { resolved, of: 4, has_mean, is_assumed, spread_share: 0.0058 };
         warning.to_string()
+    }
+
+    /// One sentence about a tone at the edge of its band, and one about a lowest line that is not used.
+    #[test]
+    fn what_one_warning_says_no_other_says_again() {
+        let edge = |harmonic: u32| {
+            let times = f64::from(harmonic);
+            let (band_hz_low, band_hz_high) = (140.4 * times, 165.0 * times);
+            Warning::RidgeOnBandEdge { harmonic, frames_share: 0.67, band_hz_low, band_hz_high }
+        };
+        let reason = "it is 2.0 % higher than its multiples say, so it may be another sound".to_owned();
+        let all = [
+            Warning::HarmonicLeftOut { harmonic: 1, reason },
+            edge(1),
+            edge(2),
+            Warning::FewHarmonicsAgree { used: 2, of: 3 },
+            Warning::FewHarmonicsAgree { used: 1, of: 3 },
+        ];
+        let told: Vec<bool> = all.iter().map(|warning| warning.is_told_by(&all)).collect();
+        assert_eq!(told, [false, false, true, true, false]);
+        assert!(!all[3].is_told_by(&all[1..]));
+        let expected = "for 67 % of the time, the tone lies at the edge of the band that is searched (140 to 165 Hz), so the true tone may lie \
+                        outside";
+        assert_eq!(edge(1).to_string(), expected);
+        assert_eq!(
+            all[0].to_string(),
+            "the lowest line of the tone is not used: it is 2.0 % higher than its multiples say, so it may be another sound"
+        );
     }
 
     /// Four rotors are assumed where no number is given: two of them may be far apart, so the warning does not call their speeds close.

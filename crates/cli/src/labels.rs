@@ -185,11 +185,13 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
             .as_ref()
             .map(|spin_up| labels_from_spin_up(spin_up, record.rotors().len(), names, &LabelsConfig::default())),
     };
-    if let Some(reason) = labels.as_ref().and_then(|labels| labels.not_told.as_ref()) {
-        let text = format!("not all rotors could be named: {reason}");
-        record.notices.push(Notice::new(text, reason.hint()));
-    }
+    record.notices.extend(labels.as_ref().and_then(notice_of));
     record.labels = labels;
+}
+
+/// That not all rotors have a name, why, and what to do.
+pub(crate) fn notice_of(labels: &RotorLabels) -> Option<Notice> {
+    Some(Notice::new(labels.why_not_all()?, labels.not_told.as_ref()?.hint()))
 }
 
 /// The labels of the separated rotors of a recording by the best of the signals of a log.

@@ -2,6 +2,7 @@
 
 use crate::args::LabelArguments;
 use crate::failure::Failure;
+use crate::labels::notice_of;
 use crate::progress::{Progress, Share};
 use crate::recording::{Heard, Hearing, Job};
 use crate::toml_file::{NO_RECORDING, TomlFile};
@@ -170,9 +171,6 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
         }
     }
     let labels = labels_from_microphones(&channel_lines, &plan.array, &plan.config);
-    if let Some(reason) = &labels.not_told {
-        let text = format!("not all rotors could be named: {reason}");
-        record.notices.push(Notice::new(text, reason.hint()));
-    }
+    record.notices.extend(notice_of(&labels));
     record.labels = Some(labels);
 }

@@ -13,6 +13,7 @@ use hovertone_report::printable;
 use std::error::Error as _;
 use std::ffi::OsString;
 use std::num::{ParseFloatError, ParseIntError};
+use std::path::Path;
 
 /// The command line as typed.
 ///
@@ -154,8 +155,13 @@ impl Misuse {
         match words.get(1).and_then(|command| command.to_str()) {
             Some("listen") => return Self::of_recording_alone(name, words),
             Some("init") => {
-                let what = format!("\"{name}\": init takes recordings behind the mass that hovers in them");
                 let is_new_file = name.ends_with(".toml");
+                if !is_new_file && !Path::new(name).exists() {
+                    let behind = "init takes recordings behind their mass, as in --mass 413g";
+                    let hint = format!("check the name and its folder; {behind} {name}");
+                    return Self { what: format!("{name}: there is no such file"), hint: Some(hint) };
+                }
+                let what = format!("\"{name}\": init takes recordings behind the mass that hovers in them");
                 let hint = if is_new_file {
                     format!("to name the new file, write -o {name}")
                 } else {
@@ -314,7 +320,11 @@ mod tests {
             ),
             (
                 "hovertone init hover.mp4",
-                "\"hover.mp4\": init takes recordings behind the mass that hovers in them (as in --mass 413g hover.mp4)",
+                "hover.mp4: there is no such file (check the name and its folder; init takes recordings behind their mass, as in --mass 413g hover.mp4)",
+            ),
+            (
+                "hovertone init src/lib.rs",
+                "\"src/lib.rs\": init takes recordings behind the mass that hovers in them (as in --mass 413g src/lib.rs)",
             ),
             (
                 "hovertone listen hover.mp4",

@@ -17,6 +17,7 @@ pub(crate) fn model_failure(error: &ModelError, path: &Path) -> Failure {
         ModelError::NoExport => {
             "give the model of a simulator; the constant of each results.json stands in its report.html"
         }
+        ModelError::WebPage => "name the file of the model itself: a page that shows it is not enough",
         ModelError::Expression { .. } => "write the number into the model, in place of the expression",
         _ => "`hovertone compare --help` lists the files that it knows",
     };

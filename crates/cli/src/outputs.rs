@@ -92,8 +92,8 @@ pub(crate) fn refuse_dash(place: &Path) -> Result<(), Failure> {
     if place.as_os_str() != "-" {
         return Ok(());
     }
-    let hint = "give a name; a file or folder that is really called - is written ./-";
-    Err(Failure::usage("- as an output is no name, and it does not mean stdout here", hint))
+    let what = "- is given as an output, but it does not mean stdout here";
+    Err(Failure::usage(what, "give the name of a file or folder; one that is really called - is written ./-"))
 }
 
 /// Writes the content of a file that was begun, and puts it into its place.

@@ -198,8 +198,7 @@ impl<'a> Terminal<'a> {
                 }
                 Some(reason) => {
                     self.heading(&printable(&record.file));
-                    let label = if record.is_ambiguous() { "ambiguous:" } else { "no rotor tone:" };
-                    self.labelled("  ", label, PLAIN, &reason);
+                    self.labelled("  ", &format!("{}:", record.missing_speed_label()), PLAIN, &reason);
                 }
                 None => self.heading(&printable(&record.file)),
             }

@@ -11,6 +11,27 @@ pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
     ("--mass-kg", "--mass"),
 ]);
 
+/// Behind `demo`: nobody can change its simulated flights.
+pub(crate) const IN_DEMO: Wording = Wording {
+    phrases: &[
+        (ONE_MEAN, "there is nothing to do: C_f uses the mean speed of the four rotors"),
+        (ONE_TONE, "there is nothing to do: the ± of C_f allows for this"),
+    ],
+    ..Wording::IN_EXPERIMENT
+};
+
+/// Behind `spectrogram`, which prints no speed.
+pub(crate) const IN_PICTURE: Wording =
+    Wording::of_phrases(&[("the speed is the mean of all rotors, and its ± allows for this; ", "")]);
+
+/// Advice about rotors that are heard as a group.
+const ONE_MEAN: &str = "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; \
+    to separate more, place the microphone nearer";
+
+/// Advice about rotors for which one tone stands.
+const ONE_TONE: &str = "to separate them and get a smaller ±, place the microphone nearer and record without compression; rotors at equal speeds \
+    cannot be separated";
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -24,9 +45,10 @@ mod tests {
         let apart =
             Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
         let warnings = [
-            Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5 },
+            Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5, band_hz_low: 140.0, band_hz_high: 165.0 },
             Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() },
             Warning::FewHarmonicsAgree { used: 1, of: 3 },
+            Warning::FewHarmonicsAgree { used: 2, of: 3 },
             Warning::HoversDiffer { slowest_rev_s: 80.0, fastest_rev_s: 90.0 },
             Warning::HoverShorterThanSample { hover_s: 1.0, length_s: 5.0 },
             Warning::ManyGaps { gap_share: 0.5 },
@@ -74,6 +96,26 @@ mod tests {
             }
         }
         assert!(advice().iter().any(|advice| !unknown_flags(advice, "identify").is_empty()));
+    }
+
+    /// A newcomer wrote no experiment file, and places no microphone in a simulation.
+    #[test]
+    fn the_demo_asks_for_nothing_and_a_picture_has_no_speed() {
+        let apart = |has_mean: bool| Warning::RotorsNotApart {
+            resolved: 0,
+            of: 4,
+            has_mean,
+            is_assumed: false,
+            spread_share: 0.006,
+        };
+        for has_mean in [true, false] {
+            let worded = IN_DEMO.of(apart(has_mean).hint());
+            assert!(worded.starts_with("there is nothing to do: ") && !worded.contains("microphone"), "{worded}");
+        }
+        let drawn = IN_PICTURE.of(apart(true).hint());
+        assert!(drawn.starts_with("if fewer rotors turn, give their number with --rotors;"), "{drawn}");
+        let in_file = Wording::IN_EXPERIMENT.of(apart(true).hint());
+        assert!(in_file.contains("write in the experiment file, under [vehicle], rotors = N"), "{in_file}");
     }
 
     #[test]

@@ -5,12 +5,15 @@ use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
 use hovertone_thrust::{
-    BudgetInput, BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget, p_value_text,
-    preferred_law,
+    BudgetInput, BudgetLine, ForceLaw, LoadRange, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget,
+    p_value_text, preferred_law,
 };
 
 /// Contributions below this share of the constant have no line for people; the JSON has all of them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;
+
+/// Forces are not called alike where the largest is this many times the smallest.
+const WIDE_FORCE_RATIO: f64 = 2.0;
 
 /// Parameters of the largest compared law: more points tell whether it is needed.
 const LAW_PARAMETERS: usize = 2;
@@ -97,11 +100,20 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             significant(law.reference_rad_s, 5),
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
         ),
-        _ if fit.laws.len() <= 1 && fit.points.len() > LAW_PARAMETERS => format!(
-            "no other law is compared with {}: the forces are too alike to choose between laws\n",
-            ForceLaw::Square.formula()
-        ),
+        _ if fit.laws.len() <= 1 && fit.points.len() > LAW_PARAMETERS => {
+            format!("no other law is compared with {}: {}\n", ForceLaw::Square.formula(), why_one_law(fit.range))
+        }
         _ => String::new(),
+    }
+}
+
+/// Why the points tell nothing of other laws: forces that differ widely are not too alike.
+fn why_one_law(range: Option<LoadRange>) -> &'static str {
+    let is_wide = |range: LoadRange| range.force_ratio_needed.is_none() || range.force_ratio >= WIDE_FORCE_RATIO;
+    if range.is_some_and(is_wide) {
+        "the forces and speeds are too uncertain to choose between laws (their stated uncertainties, or their scatter, are too large)"
+    } else {
+        "the forces are too alike to choose between laws"
     }
 }
 
@@ -171,4 +183,25 @@ fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String 
             BudgetInput::SpeedEstimator.title(),
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_that_differ_widely_are_not_called_alike() {
+        let why = |force_ratio: f64, force_ratio_needed: Option<f64>| {
+            why_one_law(Some(LoadRange {
+                force_ratio,
+                intercept_std_share: 0.1,
+                shows_intercept: false,
+                force_ratio_needed,
+            }))
+        };
+        assert!(why_one_law(None).contains("too alike") && why(1.1, Some(1.4)).contains("too alike"));
+        for wide in [why(1.1, None), why(4.0, Some(6.0))] {
+            assert!(wide.contains("too uncertain") && !wide.contains("alike"), "{wide}");
+        }
+    }
 }

@@ -41,6 +41,9 @@ pub struct FittedTable {
     pub figure_of_merit: Option<f64>,
     /// Torque of one rotor over its squared speed, where the table has torques.
     pub torque_constant_per_rotor_n_m_s2: Option<f64>,
+    /// Whether a warning says not to use the constant.
+    #[serde(skip)]
+    pub forbids_use: bool,
     /// Notices about rows that were left out or turned round, and warnings about the fit.
     pub notices: Vec<Notice>,
 }
@@ -88,15 +91,16 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
         0 => String::new(),
         count => format!(", {count} of them left out of the fit"),
     };
+    let doubt = if table.forbids_use { "do not use this constant: " } else { "" };
     let (of_all, total) = match table.rotor_count {
         1 => (String::new(), String::new()),
         count => (
             format!("in these laws, C_f and F₀ belong to all {count} rotors together\n"),
-            format!("C_f, all {count} rotors = {} ({meaning})\n", quoted(table.thrust_constant_total_n_s2)),
+            format!("{doubt}C_f, all {count} rotors = {} ({meaning})\n", quoted(table.thrust_constant_total_n_s2)),
         ),
     };
     let mut text = format!(
-        "{}\n{}{left_out}, {} against {}\n\n{}{of_all}\n{total}C_f, one rotor = {} ({meaning})\n",
+        "{}\n{}{left_out}, {} against {}\n\n{}{of_all}\n{total}{doubt}C_f, one rotor = {} ({meaning})\n",
         printable(&table.name()),
         counted(table.row_count, "table row"),
         printable(&table.force_column),

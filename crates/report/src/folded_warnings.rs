@@ -137,7 +137,7 @@ fn cut_of(record: &SpeedRecord) -> Option<Notice> {
 
 /// The reason for a missing speed of a recording that could be read.
 fn missing_speed(record: &SpeedRecord) -> Vec<Notice> {
-    let label = if record.is_ambiguous() { "ambiguous" } else { "no rotor tone" };
+    let label = record.missing_speed_label();
     let reason = record.reason().filter(|_| !record.has_failed());
     reason.map(|reason| Notice::new(format!("{label}: {reason}"), "")).into_iter().collect()
 }

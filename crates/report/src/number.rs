@@ -5,6 +5,8 @@ use hovertone_thrust::COVERAGE_FACTOR;
 
 /// Digits of a value with unknown uncertainty.
 const DIGITS_WITHOUT_UNCERTAINTY: usize = 6;
+/// Numbers from this power of ten on are written with it: nobody counts 13 digits.
+const WITH_EXPONENT: i32 = 12;
 /// Most decimals of any number.
 const DECIMALS_MAX: i32 = 9;
 
@@ -35,6 +37,10 @@ pub fn signed(value: f64, decimals: usize) -> String {
 
 /// A value with a given number of digits, for values whose uncertainty is shown elsewhere.
 pub fn significant(value: f64, digits: usize) -> String {
+    if exponent(value, digits) >= WITH_EXPONENT {
+        let sign = if value < 0.0 { "−" } else { "" };
+        return format!("{sign}{:.*e}", digits.saturating_sub(1), value.abs());
+    }
     let decimals = (digits as i32 - 1 - exponent(value, digits)).clamp(0, DECIMALS_MAX) as usize;
     fixed(value, decimals)
 }
@@ -145,6 +151,7 @@ mod tests {
             assert_eq!(with_uncertainty(value, std_uncertainty), expected);
         }
         assert_eq!((significant(0.078, 4), significant(0.109_57, 4)), ("0.07800".to_owned(), "0.1096".to_owned()));
+        assert_eq!((significant(-1.26e15, 2), significant(9.96e11, 2)), ("−1.3e15".to_owned(), "1.0e12".to_owned()));
         assert_eq!((spread(None), spread(Some(0.0996))), (DASH.to_owned(), "0.10".to_owned()));
         assert_eq!(plus_minus(Some(0.0498)), "0.10");
     }

@@ -220,6 +220,18 @@ impl SpeedRecord {
         }
     }
 
+    /// What stands before the reason for a missing speed. The tone is not to blame where the chosen part is not in the recording.
+    pub fn missing_speed_label(&self) -> &'static str {
+        let outside = |analysis: &SpeedAnalysis| {
+            matches!(&analysis.outcome, Outcome::NoRotorTone { reason: NoTone::OutsideRecording { .. } })
+        };
+        match self.analysis() {
+            _ if self.is_ambiguous() => "ambiguous",
+            Some(analysis) if outside(analysis) => "no speed",
+            _ => "no rotor tone",
+        }
+    }
+
     /// Reason for a missing speed.
     pub fn reason(&self) -> Option<String> {
         match &self.answer {

@@ -2,6 +2,7 @@
 
 use crate::csv_text::text_of;
 use crate::cuts::used_in_words;
+use crate::names::rotor_name;
 use crate::notice::Notice;
 use crate::number::{DASH, expanded, plus_minus, rounded, significant, spread};
 use crate::printable::{printable, shared_folder};
@@ -63,7 +64,7 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
                     ),
                 }
             }
-            None => table.push_words(name(record), "no rotor tone".to_owned()),
+            None => table.push_words(name(record), record.missing_speed_label().to_owned()),
         }
     }
     let below = if folder.is_empty() { String::new() } else { format!("files in {}\n", printable(folder)) };
@@ -72,11 +73,8 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
 
 /// The label of a rotor, or its number in the order of the speeds.
 pub(crate) fn name_of_rotor(record: &SpeedRecord, index: usize) -> String {
-    match record.label(index) {
-        Some(label) => format!("  {}", label.name),
-        None if index == 0 => "  rotor 1, the fastest".to_owned(),
-        None => format!("  rotor {}", index + 1),
-    }
+    let has_labels = record.labels.iter().flat_map(|labels| &labels.rotors).any(Option::is_some);
+    rotor_name(record.label(index).map(|label| label.name.as_str()), has_labels, index)
 }
 
 fn cells_of_speed(name: String, estimate: &SpeedEstimate, used: String) -> Vec<String> {

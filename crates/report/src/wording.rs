@@ -18,6 +18,10 @@ impl Wording {
             ("--from and --to", "from_s and to_s under [[load]]"),
             ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
             ("--harmonics 1", "harmonics = 1 under [tone]"),
+            (
+                "if fewer rotors turn, give their number with --rotors",
+                "if fewer rotors turn, write in the experiment file, under [vehicle], rotors = N (of a bench, rotors_running = N under its [[load]])",
+            ),
             ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
             ("give --blades N", "write blades = N under [vehicle]"),
             ("give --blades ", "under [vehicle] write blades = "),

@@ -4,8 +4,8 @@ use crate::hover::HoverConfig;
 use crate::survey::Survey;
 use crate::tone::ToneConfig;
 use hovertone_analysis::{
-    CutReason, Hover, Method, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, TrackPoint,
-    Warning,
+    Band, CutReason, Hover, Method, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate,
+    TrackPoint, Warning,
 };
 use hovertone_signal::statistics::mean;
 
@@ -126,7 +126,8 @@ pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> V
         let peaks = || ridge.frames.iter().filter_map(|frame| frame.peak);
         let frames_share = peaks().filter(|peak| peak.is_on_edge).count() as f64 / (peaks().count().max(1)) as f64;
         if frames_share > EDGE_SHARE {
-            warnings.push(Warning::RidgeOnBandEdge { harmonic: ridge.band.harmonic, frames_share });
+            let Band { harmonic, band_hz_low, band_hz_high, .. } = ridge.band;
+            warnings.push(Warning::RidgeOnBandEdge { harmonic, frames_share, band_hz_low, band_hz_high });
         }
     }
     let harmonic_count = ridges.iter().filter(used).count();

@@ -5,7 +5,7 @@ use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
 use crate::warning_words::{
     differ_text, drift_text, first_names, foreign_text, groups_text, is_shifted_point, mass_text, misfit_text,
-    range_text, ratio_text,
+    range_text, ratio_text, short_text,
 };
 use hovertone_vehicle::KNOWN_MASS_SHARES;
 use serde::Serialize;
@@ -35,6 +35,8 @@ pub enum ThrustWarning {
         names: Vec<String>,
         /// They are rows of a table.
         are_rows: bool,
+        /// A load has an added mass, which may be that of vehicle and load together by mistake.
+        has_added_mass: bool,
     },
     /// A trial needs another thrust than the others of its load.
     TrialFarFromOthers {
@@ -181,6 +183,12 @@ impl ThrustWarning {
         ) || self.is_of_other_vehicle()
     }
 
+    /// Whether its hint says not to use the constant: it is of no vehicle, or of none of the loads.
+    pub fn forbids_use(&self) -> bool {
+        matches!(self, Self::HeavierTurnedSlower { .. } | Self::ConstantsDiffer { .. } | Self::ConstantsSplit)
+            || self.is_of_other_vehicle()
+    }
+
     /// Whether the sound is not that of the vehicle, or a mass is ten times too light or too heavy for it: then the constant is of no vehicle.
     pub fn is_of_other_vehicle(&self) -> bool {
         match self {
@@ -203,8 +211,9 @@ impl ThrustWarning {
                 "check the thrust and the recordings of that load"
             }
             Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale, the propellers",
-            Self::LoadsDisagree { are_rows: false, .. } | Self::HeavierTurnedSlower { .. } => {
-                "check whether two masses are exchanged, and which recording belongs to which load"
+            Self::LoadsDisagree { has_added_mass, .. } => disagree_hint(*has_added_mass),
+            Self::HeavierTurnedSlower { .. } => {
+                "do not use this constant: check whether two masses are exchanged, and which recording belongs to which load"
             }
             Self::TrialsInGroups { .. } => {
                 "if they were flown with different masses, give each mass a [[load]] of its own"
@@ -300,7 +309,7 @@ impl fmt::Display for ThrustWarning {
                 if *is_left_out { f.write_str("; it is left out: its constant is more than twice, or less than half, the constant of the \
                 others") } else { Ok(()) }
             }
-            Self::LoadsDisagree { names, are_rows } => {
+            Self::LoadsDisagree { names, are_rows, .. } => {
                 let noun = if *are_rows { "rows" } else { "loads" };
                 write!(f, "the {noun} do not fit each other: {}", first_names(names))
             }
@@ -358,10 +367,10 @@ impl fmt::Display for ThrustWarning {
             }
             Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {
-                write!(f, "the thrust coefficient C_T = T/(ρ n² D⁴) is {propeller:.3}, and no propeller has that")
+                write!(f, "the thrust coefficient C_T = T/(ρ n² D⁴) is {}, and no propeller has that", short_text(*propeller, 3))
             }
             Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
-                write!(f, "the figure of merit (ideal power over measured power) is {figure_of_merit:.3} (\"{name}\"), and no rotor has that")
+                write!(f, "the figure of merit (ideal power over measured power) is {} (\"{name}\"), and no rotor has that", short_text(*figure_of_merit, 3))
             }
             Self::UncertaintiesIncomplete { stated, of } => {
                 write!(f, "only {stated} of {of} rows have an uncertainty above 0: the ± comes from the scatter of all rows")
@@ -372,5 +381,15 @@ impl fmt::Display for ThrustWarning {
             Self::LoudestRotor => f.write_str("the rotors could not be separated: one tone is used for all, from the loudest rotor or from \
             several"),
         }
+    }
+}
+
+/// What to check where loads do not fit each other.
+fn disagree_hint(has_added_mass: bool) -> &'static str {
+    if has_added_mass {
+        "check whether two masses are exchanged, and which recording belongs to which load; is each added mass (added_mass_kg) \
+         without the mass of the vehicle?"
+    } else {
+        "check whether two masses are exchanged, and which recording belongs to which load"
     }
 }

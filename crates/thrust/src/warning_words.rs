@@ -5,7 +5,10 @@ use crate::square_law::LoadRange;
 use crate::statistics::{COVERAGE_FACTOR, p_value_text};
 
 /// Most names in the list of a warning. *Decision.*
-const NAMES_MAX: usize = 5;
+pub(crate) const NAMES_MAX: usize = 5;
+
+/// Numbers from this on are written with an exponent. *Decision.*
+const LARGE: f64 = 1e9;
 
 /// Ratios of masses within this factor about ten are called a shifted decimal point: loads differ from the bare vehicle. *Decision.*
 const POINT_MARGIN: f64 = 1.5;
@@ -52,8 +55,13 @@ pub(crate) fn range_text(range: &LoadRange) -> String {
 
 /// Two different ratios with two decimals, or with as many as show that they differ.
 pub fn compared(ratios: [f64; 2]) -> [String; 2] {
-    let printed = |decimals: usize| ratios.map(|ratio| format!("{ratio:.decimals$}"));
+    let printed = |decimals: usize| ratios.map(|ratio| short_text(ratio, decimals));
     (2..=6).map(printed).find(|[one, other]| one != other).unwrap_or_else(|| printed(2))
+}
+
+/// A number with its decimals; a large one with an exponent.
+pub(crate) fn short_text(value: f64, decimals: usize) -> String {
+    if value >= LARGE { format!("{value:.1e}") } else { format!("{value:.decimals$}") }
 }
 
 /// The first names of a list.

@@ -1,12 +1,13 @@
 //! Shaft speed and order. They are types, because shaft speed and tone frequency as plain numbers of hertz are easily mixed up.
 
+use crate::number::number_in_words;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::fmt;
 
 /// A quantity out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} = {value}, and it must be {must_be}")]
+#[error("{name} = {}, and it must be {must_be}", number_in_words(*value))]
 pub struct QuantityError {
     /// Name of the quantity, as in files and flags.
     pub name: &'static str,

@@ -106,8 +106,9 @@ pub fn hear(
         Warning::HarmonicLeftOut { harmonic, .. } if *harmonic > 1 => false,
         other => follows_a_tone || !other.is_about_followed_tone(),
     };
+    let all: &[Warning] = record.analysis().map_or(&[], |analysis| &analysis.warnings);
     let of_analysis: Vec<&Warning> =
-        record.analysis().into_iter().flat_map(|analysis| &analysis.warnings).filter(matters).collect();
+        all.iter().filter(|warning| matters(warning) && !warning.is_told_by(all)).collect();
     let hints = record.given_facts().hints(&of_analysis);
     let of_analysis = of_analysis.into_iter().zip(hints).map(|(warning, hint)| {
         let kind = match warning {

@@ -173,18 +173,13 @@ impl Identified {
                     count => format!("; the order check failed against {}", counted(count, "log")),
                 };
                 let verdict = format!("verdict: {}{heard}{failed}", printable(Verdict::of(table).words()));
-                match self.is_foreign() {
+                match self.warnings().iter().any(ThrustWarning::forbids_use) {
                     true => format!("{verdict}\ndo not use this constant: {constants}\n"),
                     false => format!("{constants}\n{verdict}\n"),
                 }
             }
             None => "C_f: none, since no recording has a speed\nverdict: nothing is identified\n".to_owned(),
         }
-    }
-
-    /// Whether another rotor sounds than that of the vehicle.
-    fn is_foreign(&self) -> bool {
-        self.warnings().iter().any(ThrustWarning::is_of_other_vehicle)
     }
 
     /// The records of all recordings.

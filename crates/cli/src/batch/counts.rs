@@ -33,6 +33,11 @@ impl Counts {
         self.cut_short += usize::from(is_prefix);
     }
 
+    /// Whether a recording of this status was heard, and has no sure speed.
+    pub(crate) fn is_unsure(status: &str) -> bool {
+        !["ok", Self::ERROR].contains(&status)
+    }
+
     /// Number of recordings.
     pub(crate) fn total(&self) -> usize {
         self.ok + self.ambiguous + self.no_rotor_tone + self.error

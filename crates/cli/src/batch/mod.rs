@@ -75,6 +75,10 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
         folder.remove_other_parts(&plan)?;
     }
     written.iter().flat_map(|written| &written.failed).for_each(|failed| terminal.error(failed));
+    let overview = folder.place(tables::OVERVIEW);
+    if let Some(notice) = written.as_ref().and_then(|written| written.notice_of_unsure(&overview)) {
+        terminal.warning(&notice, "");
+    }
     let counts = written.map(|written| written.counts);
     say(&Said { heard: of_run, all: counts.as_ref(), plan: &plan, shard, folder: &folder }, arguments.json, terminal)?;
     Ok(if counts.unwrap_or(of_run).is_complete() { Ending::Done } else { Ending::Incomplete })

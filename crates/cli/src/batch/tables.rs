@@ -6,7 +6,7 @@ use super::overview::Overview;
 use crate::failure::Failure;
 use crate::output_file::{OutputFile, remove_written};
 use hovertone_archive::{ArchiveError, BatchIdentity, Part, Plan, RecordingsTable, TracksTable};
-use hovertone_report::Notice;
+use hovertone_report::{Notice, counted};
 use serde_json::Value;
 use std::fs::File;
 use std::io::BufWriter;
@@ -24,11 +24,31 @@ const TRACKS_BEGIN: &str = "part-";
 /// Most recordings that are named where they could not be heard; the table and the page name all.
 const FAILED_NAMED_MAX: usize = 10;
 
+/// Most recordings that are named where they have no sure speed.
+const UNSURE_NAMED_MAX: usize = 5;
+
 /// What the tables hold.
 pub(crate) struct Written {
     pub(crate) counts: Counts,
     /// The first recordings that could not be heard, with the reasons.
     pub(crate) failed: Vec<Notice>,
+    /// The names of the first recordings that were heard, and have no sure speed.
+    unsure: Vec<String>,
+}
+
+impl Written {
+    /// Which recordings have no sure speed, and what to do; `None` where all have one.
+    pub(crate) fn notice_of_unsure(&self, overview: &Path) -> Option<Notice> {
+        let count = self.counts.ambiguous + self.counts.no_rotor_tone;
+        let has = if count == 1 { "has" } else { "have" };
+        let more = if count > self.unsure.len() { ", …" } else { "" };
+        let text = format!("{} {has} no sure speed: {}{more}", counted(count, "recording"), self.unsure.join(", "));
+        let hint = format!(
+            "hear one with `hovertone speed` and the same flags: it says why, and what to do; {} shows all",
+            overview.display()
+        );
+        (count > 0).then(|| Notice::new(text, hint))
+    }
 }
 
 /// Writes the tables and the page; `None` where recordings are missing, which other jobs hear.
@@ -44,6 +64,7 @@ pub(crate) fn write_tables(
     let mut recordings = Begun::new(folder, RECORDINGS, |into| RecordingsTable::begin(into, &identity.settings))?;
     let mut tracks = Tracks { folder, settings: &identity.settings, current: None, count: 0 };
     let (mut counts, mut failed, mut overview) = (Counts::default(), Vec::new(), Overview::new(identity));
+    let mut unsure = Vec::new();
     for recording in plan.recordings() {
         let part = folder.part(recording)?;
         let summary = part.summary().map_err(Failure::internal)?;
@@ -52,6 +73,9 @@ pub(crate) fn write_tables(
             failed
                 .push(Notice::new(format!("{}: {}", summary.file, summary.reason.as_deref().unwrap_or_default()), ""));
         }
+        if Counts::is_unsure(&summary.status) && unsure.len() < UNSURE_NAMED_MAX {
+            unsure.push(summary.file.clone());
+        }
         recordings.table.push(&part).map_err(|error| cannot_write(error, &recordings.output))?;
         tracks.push(&part)?;
         overview.add(summary, part.picture);
@@ -59,7 +83,7 @@ pub(crate) fn write_tables(
     tracks.end()?;
     folder.write(OVERVIEW, &overview.html()?)?;
     recordings.end(RecordingsTable::finish)?;
-    Ok(Some(Written { counts, failed }))
+    Ok(Some(Written { counts, failed, unsure }))
 }
 
 /// Whether a file in the folder of the tracks was written by a batch.
@@ -136,4 +160,33 @@ impl Tracks<'_> {
 
 fn cannot_write(error: ArchiveError, output: &OutputFile) -> Failure {
     Failure::failed(format!("this table cannot be written: {error}"), "check the disk", output.place())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn five_recordings_without_a_sure_speed_are_named() {
+        let notice = |count: usize| {
+            let mut written = Written { counts: Counts::default(), failed: Vec::new(), unsure: Vec::new() };
+            for number in 0..count {
+                written.counts.add(["ambiguous", "no_rotor_tone"][number % 2], false);
+                written.unsure.push(format!("{number}.wav"));
+            }
+            written.unsure.truncate(UNSURE_NAMED_MAX);
+            written.notice_of_unsure(Path::new("out/overview.html"))
+        };
+        assert_eq!(notice(0), None);
+        assert_eq!(notice(1).map(|notice| notice.text), Some("1 recording has no sure speed: 0.wav".to_owned()));
+        let seven = "7 recordings have no sure speed: 0.wav, 1.wav, 2.wav, 3.wav, 4.wav, …";
+        let said = notice(7).map(|notice| (notice.text, notice.hint));
+        assert!(
+            said.as_ref().is_some_and(|(text, hint)| text == seven && hint.contains("out/overview.html")),
+            "{said:?}"
+        );
+        assert!(
+            ["ok", Counts::ERROR].iter().all(|status| !Counts::is_unsure(status)) && Counts::is_unsure("ambiguous")
+        );
+    }
 }

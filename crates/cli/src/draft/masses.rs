@@ -7,8 +7,7 @@ use hovertone_vehicle::{KnownRotor, MASS_ALONE_KG_MAX};
 use std::path::Path;
 
 const GRAMS: f64 = 1e3;
-const HINT: &str =
-    "write the mass in kg before its recordings, as in --mass '0.413=no_hull/*.mov'; or --mass 0.413 no_hull/*.mov";
+const HINT: &str = "write the mass, in g or kg, before its recordings: --mass 413g=hover.mov, or --mass 0.413=hover.mov, or --mass 413g a.mov b.mov";
 
 /// One load: a mass as flown and its recordings.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,6 +9,7 @@ use crate::toml_file::TomlFile;
 use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
 use hovertone::thrust::VehicleModel;
+use hovertone_report::Wording;
 use hovertone_vehicle::{Contradiction, find_preset, presets};
 use std::path::{Path, PathBuf};
 
@@ -31,6 +32,8 @@ pub(crate) struct ExperimentSource {
     pub(crate) experiment: Experiment,
     /// The flags that stand in place of the file.
     pub(crate) typed: Option<TypedExperiment>,
+    /// How advice about its recordings is worded.
+    pub(crate) wording: Wording,
 }
 
 impl ExperimentSource {
@@ -77,6 +80,7 @@ impl ExperimentSource {
             has_notes: text.trim_start().starts_with('#'),
             experiment,
             typed: None,
+            wording: Wording::IN_EXPERIMENT,
             path,
         })
     }

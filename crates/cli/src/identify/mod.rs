@@ -23,11 +23,10 @@ use crate::report_folder::{PAGE, RESULTS, write_report};
 use crate::terminal::Terminal;
 use crate::today::today;
 use crate::typed::typed_command;
-use crate::wording::IN_PLACE_OF_FILE;
 use hovertone::experiment::Experiment;
 use hovertone::speed::Method;
 use hovertone::thrust::ThrustWarning;
-use hovertone_report::{InputRecord, Notice, SpeedRecord, Wording, printable, results_json};
+use hovertone_report::{InputRecord, Notice, SpeedRecord, printable, results_json};
 use hovertone_workflow::{ReportExtras, TipsTooFast, Titles};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
@@ -173,7 +172,7 @@ pub(crate) fn identify(
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
-    let wording = if source.typed.is_some() { IN_PLACE_OF_FILE } else { Wording::IN_EXPERIMENT };
+    let wording = source.wording;
     let input = |((OfLoad { load, log }, mut record), job): ((OfLoad, SpeedRecord), &Job)| {
         let log = log.map(|log| log.compared(&mut record, job));
         InputRecord { load, record: record.worded(wording), log }

@@ -7,6 +7,7 @@ use crate::failure::Failure;
 use crate::files::sha256_of_bytes;
 use crate::typed::typed_command;
 use crate::vehicles::preset;
+use crate::wording::IN_PLACE_OF_FILE;
 use hovertone_report::VERSION;
 use hovertone_vehicle::Vehicle;
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ impl TypedExperiment {
     pub(crate) fn source(self) -> Result<ExperimentSource, Failure> {
         let text = self.text(&self.draft.loads);
         let source = ExperimentSource::of_flags(&text, PathBuf::from(EXPERIMENT), "identify")?;
-        Ok(ExperimentSource { typed: Some(self), ..source })
+        Ok(ExperimentSource { typed: Some(self), wording: IN_PLACE_OF_FILE, ..source })
     }
 
     fn text(&self, loads: &[LoadDraft]) -> String {

@@ -105,3 +105,49 @@ fn stated_uncertainties_that_are_too_large_are_named_where_the_law_cannot_be_tes
     assert!(said.contains("the uncertainties that you stated"), "{said}");
     assert!(!with(0.001).contains("too uncertain"), "{}", with(0.001));
 }
+
+/// The weights of a fit would be lost in rounding: the row and the column are named, not a law.
+#[test]
+fn stated_uncertainties_beyond_all_measure_are_refused_by_their_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    for (thrust_std_g, how) in [("1e-200", "too small to be fitted"), ("1e200", "too large to be fitted")] {
+        let rows = format!("3000,70,0.5\n3600,101,{thrust_std_g}\n4200,137,0.5\n5000,195,{thrust_std_g}\n");
+        fs::write(&table, format!("rpm,thrust_g,thrust_std_g\n{rows}")).unwrap();
+        let run = hovertone(&["fit", text(&table)]).ends_with(2);
+        for words in ["line 3: the stated uncertainty is ", how, " times the force", "correct thrust_std_g in this row"]
+        {
+            assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+        }
+        let longest = run.stderr.split(|letter: char| !letter.is_ascii_digit()).map(str::len).max();
+        assert!(longest.is_some_and(|longest| longest <= 12), "{}", run.stderr);
+    }
+    // uncertainties that are only too small are one of the causes that are named, and the rows are in their order
+    let rows: String = [70, 101, 137, 200, 240, 330, 405]
+        .into_iter()
+        .zip([3000, 3600, 4200, 5000, 5600, 6400, 7300])
+        .map(|(thrust_g, rpm)| format!("{rpm},{thrust_g},0.001\n"))
+        .collect();
+    fs::write(&table, format!("rpm,thrust_g,thrust_std_g\n{rows}")).unwrap();
+    let said = hovertone(&["fit", text(&table)]).ends_with(0);
+    assert!(said.stderr.contains("; or thrust_std_g is too small"), "{}", said.stderr);
+    assert!(!said.stdout.contains("too alike"), "{}", said.stdout);
+    let line = said.stderr.lines().find(|line| line.contains("do not fit")).unwrap_or_default();
+    let named: Vec<u32> = line
+        .split("line ")
+        .skip(1)
+        .filter_map(|rest| rest.split(|letter: char| !letter.is_ascii_digit()).next()?.parse().ok())
+        .collect();
+    assert!(named.len() > 3 && named.is_sorted(), "{line}");
+}
+
+#[test]
+fn a_thrust_without_a_unit_is_told_how_to_name_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    fs::write(&table, "rpm,thrust\n3000,70\n3600,101\n4200,137\n").unwrap();
+    let run = hovertone(&["fit", text(&table)]).ends_with(2);
+    for words in ["column \"thrust\" has no unit", "name its unit in the header: thrust_g"] {
+        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+    }
+}

@@ -15,7 +15,7 @@ fn identify_names_keys_of_its_file_and_flags_of_its_own() {
     let content = "[vehicle]\npreset = \"ardrone\"\n[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";
     fs::write(&experiment, content).unwrap();
     let by_file = hovertone(&["identify", text(&experiment)]).ends_with(0);
-    assert!(by_file.stderr.contains("give their number as rotors under [vehicle]"), "{}", by_file.stderr);
+    assert!(by_file.stderr.contains("write in the experiment file, under [vehicle], rotors = N"), "{}", by_file.stderr);
     assert!(!by_file.stderr.contains("--"), "{}", by_file.stderr);
     let load = format!("413g={}", text(&sound));
     let by_flags = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(0);

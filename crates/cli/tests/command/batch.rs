@@ -59,6 +59,8 @@ fn each_recording_is_a_row_with_the_numbers_of_speed() {
     fs::write(archive.join("notes.md"), "no recording").unwrap();
     let run = batch(&archive, &out, &["--json"]).ends_with(3);
     assert_eq!(run.json_lines()[0]["counts"]["error"], 2);
+    let unsure = run.stderr.lines().find(|line| line.contains("1 recording has no sure speed: ")).unwrap_or_default();
+    assert!(unsure.contains("noise.wav") && unsure.contains("`hovertone speed` and the same flags"), "{}", run.stderr);
     let rows = table(&out.join("recordings.parquet"));
     let files = texts(&rows, "file");
     assert_eq!(files.len(), 7, "{files:?}");

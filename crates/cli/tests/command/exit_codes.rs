@@ -48,7 +48,7 @@ const CASES: [(&str, i32, &str); 65] = [
     ("verify a.wav still.csv", 1, "no rotor speed in this log"),
     ("motor still.csv", 1, "no rotor speed in this log"),
     // what is read has no answer
-    ("speed a.wav --blades 2 --from 9", 3, "the recording ends at"),
+    ("speed a.wav --blades 2 --from 9", 3, "no speed: the recording ends at"),
     ("spectrogram a.wav --blades 2 --from 9 -o x.png", 3, "nothing was written"),
     ("log a.wav", 1, "this is a recording, and a log is needed"),
     ("motor nowhere.ulg", 1, "nowhere.ulg"),

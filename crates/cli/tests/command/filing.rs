@@ -119,6 +119,7 @@ fn exchanged_masses_are_asked_about_and_fit_no_others() {
         let contradicts =
             "verdict: the loads contradict each other: the rotors turned slower under the heavier load \"";
         assert!(verdict.starts_with(contradicts), "{verdict}");
+        assert!(run.stdout.contains("\ndo not use this constant: C_f = "), "{}", run.stdout);
     }
     assert!(!double.stdout.contains("others") && !double.stderr.contains("the others"), "{}", double.stderr);
 }

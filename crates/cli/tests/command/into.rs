@@ -230,3 +230,16 @@ fn a_constant_that_changes_by_more_than_a_factor_of_two_is_asked_about() {
     let words = "times the old constant of the model (hint: check that results and model are of the same vehicle";
     assert!(said("5.84e-08").contains(words));
 }
+
+#[test]
+fn a_web_page_in_place_of_a_model_is_called_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let page = folder.path().join("page.html");
+    fs::write(&page, "<!DOCTYPE html>\n<html><br><pre>&lt;motorConstant></pre> motor_constant\n").unwrap();
+    let (into, compare) =
+        (export(&results, &["--into", text(&page)]), hovertone(&["compare", text(&results), text(&page)]));
+    for said in [into.ends_with(1).stderr, compare.ends_with(1).stderr] {
+        assert!(said.contains("this is a web page, and no model of a simulator (hint: name the file"), "{said}");
+    }
+}

@@ -20,7 +20,7 @@ fn a_dash_is_no_output() {
         &["init", "--vehicle", "ardrone", "--mass", "413g=a.wav", "-o", "-"],
     ] {
         let run = hovertone_with(words, |command| command.current_dir(folder.path())).ends_with(2);
-        assert!(run.stderr.contains("- as an output is no name") && run.stderr.contains("./-"), "{}", run.stderr);
+        assert!(run.stderr.contains("- is given as an output") && run.stderr.contains("./-"), "{}", run.stderr);
         assert!(run.stdout.is_empty() && !folder.path().join("-").exists(), "{words:?}");
     }
 }
@@ -86,7 +86,10 @@ fn a_mass_in_grams_is_asked_about() {
     let words = ["mass_kg = 413 is 413 kg", "weighs 0.413 kg", "did you mean 0.413?"];
     refused_with(&["identify", text(&experiment)], &words);
     let flags = ["identify", "--vehicle", "ardrone", "--mass", "413=a.wav"];
-    refused_with(&flags, &["413 without a unit is 413 kg", "did you mean 413g?"]);
+    refused_with(
+        &flags,
+        &["413 without a unit is 413 kg", "did you mean 413g?", "--mass 413g=hover.mov, or --mass 0.413="],
+    );
 }
 
 /// A table that cannot be fitted still says what was done to its rows.

@@ -151,6 +151,9 @@ pub enum ModelError {
         "the file has no thrust constant of a known simulator (looked for motorConstant, motor_constant, kf, k_eta, thrust_map, C_T, rpm2thrust)"
     )]
     Unknown,
+    /// A page in HTML, such as a download that asks for a login.
+    #[error("this is a web page, and no model of a simulator")]
+    WebPage,
     /// JSON with a constant, but not the export of this project.
     #[error("this JSON is no model of a simulator; it may be the results of hovertone")]
     NoExport,
@@ -220,6 +223,9 @@ pub fn export_text(rotor: &IdentifiedRotor, format: SimulatorFormat) -> Result<S
 /// # Errors
 /// No known constant, an invalid file, a constant out of range, rotors with different constants.
 pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
+    if is_web_page(text) {
+        return Err(ModelError::WebPage);
+    }
     let format = format_of(text)?;
     let model = match format {
         SimulatorFormat::Gazebo => gazebo::read(text)?,
@@ -243,6 +249,13 @@ pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
         value.map_or(Ok(()), |value| check_positive(name, value))?;
     }
     Ok(model)
+}
+
+/// Whether a text begins as a page in HTML does. Its code may name the constant of a simulator.
+fn is_web_page(text: &str) -> bool {
+    let text = text.trim_start_matches(|letter: char| letter.is_whitespace() || letter == '\u{feff}');
+    let begins = |head: &&str| text.get(..head.len()).is_some_and(|start| start.eq_ignore_ascii_case(head));
+    ["<!doctype html", "<html"].iter().any(begins)
 }
 
 /// The format of a model, known by its keywords.

@@ -218,3 +218,11 @@ fn names_stay_in_their_comments() {
         }
     }
 }
+
+#[test]
+fn a_web_page_is_no_model() {
+    for page in ["<!DOCTYPE html>\n<p>motor_constant\n", "\u{feff}  <HTML><br><motorConstant>5.84e-06"] {
+        let error = model_from_text(page).unwrap_err();
+        assert!(matches!(error, ModelError::WebPage), "{error}");
+    }
+}

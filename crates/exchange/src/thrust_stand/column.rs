@@ -49,6 +49,11 @@ impl Column {
         Some(csv.number(record.get(self.index)?)? * self.si_per_unit)
     }
 
+    /// Whether the header says that the column is a torque.
+    pub(super) fn names_torque(&self) -> bool {
+        words_of(&self.header.to_lowercase()).any(|word| word == "torque")
+    }
+
     /// Whether the header says that the rotor is meant, and not the motor.
     pub(super) fn names_rotor(&self) -> bool {
         words_of(&self.header.to_lowercase()).any(|word| ROTOR.contains(&word))

@@ -1,10 +1,13 @@
 //! From tables of speed and thrust to speeds and forces in SI units: CSV of RCbenchmark, or any CSV with a header.
 
 mod column;
+mod error;
 mod grouping;
 mod plausible;
 #[cfg(test)]
 mod tests;
+
+pub use error::TableError;
 
 use crate::csv_text::{CsvError, CsvText, line_of};
 use column::{Column, Quantity, columns_of, rotors_in};
@@ -81,59 +84,10 @@ pub struct StandTable {
     pub force_column: String,
     /// Number of rotors that this header names, as in `thrust_g_4rotors`, or that the column `rotors_running` has in all rows.
     pub rotor_count: Option<u32>,
+    /// Headers of the columns with the standard uncertainties of force and speed.
+    pub std_columns: Vec<String>,
     /// Notes about rows that were left out or turned round.
     pub notes: Vec<String>,
-}
-
-/// Error in a table.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum TableError {
-    /// No table, or a cell that is not a number.
-    #[error(transparent)]
-    Csv(#[from] CsvError),
-    /// A column is missing.
-    #[error("no column holds {what}; the columns are: {columns}")]
-    NoColumn {
-        /// The missing quantity.
-        what: &'static str,
-        /// The headers.
-        columns: String,
-    },
-    /// A number out of range.
-    #[error("line {line}, column \"{column}\": {value}: {must_be}")]
-    OutOfRange {
-        /// Line, counted from 1.
-        line: u64,
-        /// Header of its column.
-        column: String,
-        /// The number.
-        value: f64,
-        /// Allowed numbers.
-        must_be: &'static str,
-    },
-    /// Numbers of several rows that only another unit than that of the header explains.
-    #[error("column \"{column}\": {count} of {of} numbers are {must_be}; the largest one is {largest}")]
-    OtherUnit {
-        /// Header of the column.
-        column: String,
-        /// Numbers beyond the limit.
-        count: usize,
-        /// All numbers of the column.
-        of: usize,
-        /// The largest of these numbers.
-        largest: f64,
-        /// The limit.
-        must_be: &'static str,
-        /// A header with the unit that is probably meant; absent where none of the known units is.
-        header: Option<&'static str>,
-    },
-    /// A header alone.
-    #[error("the table has a header and no row below it")]
-    HeaderAlone,
-    /// No row with a turning rotor.
-    #[error("no row has both a speed and a thrust: there is nothing to fit")]
-    NoRow,
 }
 
 /// Reads a table, separated by commas, semicolons or tabs. The headers give the quantities of the columns: a speed (rpm, rad/s, rev/s), a
@@ -161,7 +115,10 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         best(&csv, &columns, &records, Quantity::Speed).ok_or_else(|| missing("a speed (rpm, rad/s or rev/s)"))?;
     let force = best(&csv, &columns, &records, Quantity::Thrust)
         .or_else(|| best(&csv, &columns, &records, Quantity::Mass))
-        .ok_or_else(|| missing("a thrust (N, g, kg or lbf) or a mass (kg or g)"))?;
+        .ok_or_else(|| match columns.iter().find(|column| column.lacks_unit && !column.names_torque()) {
+            Some(column) => TableError::NoUnit { column: column.header.clone() },
+            None => missing("a thrust (N, g, kg or lbf) or a mass (kg or g)"),
+        })?;
     let groups_by = grouping_columns(&columns, &records);
     let reader = RowReader { csv: &csv, columns: &columns, groups_by, speed, force };
     let mut rows: Vec<GroupedRow> = Vec::new();
@@ -188,7 +145,13 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
             None => groups.push(StandGroup { name, rows: vec![row] }),
         }
     }
+    let force_std = if force.quantity == Some(Quantity::Mass) { Quantity::MassStd } else { Quantity::ThrustStd };
+    let header_of = |quantity: Quantity| {
+        let column = columns.iter().find(|column| column.quantity == Some(quantity))?;
+        Some(column.header.clone())
+    };
     Ok(StandTable {
+        std_columns: [force_std, Quantity::SpeedStd].into_iter().filter_map(header_of).collect(),
         groups,
         speed_column: speed.header.clone(),
         force_column: force.header.clone(),

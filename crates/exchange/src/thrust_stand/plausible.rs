@@ -13,6 +13,8 @@ const SPEED_REV_S_MIN: f64 = 1.0;
 const MASS_KG_MIN: f64 = 1e-3;
 /// Millionths of a unit are kept in messages.
 const DECIMALS: f64 = 1e6;
+/// Larger numbers have no decimals to round.
+const ROUNDED_MAX: f64 = 1e9;
 
 /// The columns of speed and force.
 #[derive(Clone, Copy)]
@@ -104,5 +106,6 @@ fn out_of_range(cell: &Cell, column: &Column, must_be: &'static str) -> TableErr
 }
 
 fn in_unit(si: f64, column: &Column) -> f64 {
-    (si / column.si_per_unit * DECIMALS).round() / DECIMALS
+    let value = si / column.si_per_unit;
+    if value.abs() < ROUNDED_MAX { (value * DECIMALS).round() / DECIMALS } else { value }
 }

@@ -145,3 +145,23 @@ fn a_row_may_end_after_the_last_column_that_is_used() {
         assert!(error.to_string().contains(&words), "{error}");
     }
 }
+
+#[test]
+fn a_thrust_without_a_unit_is_named_and_a_torque_is_not() {
+    let said = |text: &str| table_from_csv(text).unwrap_err().to_string();
+    let thrust = said("rpm,torque,thrust\n3000,1,2\n");
+    assert!(thrust.starts_with("column \"thrust\" has no unit that hovertone knows"), "{thrust}");
+    assert!(said("rpm,torque\n3000,1\n").starts_with("no column holds a thrust"));
+}
+
+#[test]
+fn long_numbers_have_an_exponent() {
+    let said = table_from_csv("rpm,thrust_n\n1e305,2\n3000,2\n").unwrap_err().to_string();
+    assert!(said.contains("line 2, column \"rpm\": 1e305: too fast for a rotor"), "{said}");
+}
+
+#[test]
+fn columns_of_stated_uncertainties_are_named() {
+    let table = table_from_csv("rpm,thrust_g,thrust_std_g,mass_std_g\n3000,1,2,3\n4000,2,2,3\n").unwrap();
+    assert_eq!(table.std_columns, ["thrust_std_g"]);
+}

@@ -155,7 +155,7 @@ fn rotors_that_move_alike_are_not_told() {
     let (tracks, log) = (flight.tracks(&[0, 2, 1, 3], NO_GAP), flight.rates(&Layout::X.places(0.18)));
     let labels = labelled(&tracks, 4, &log);
     assert_eq!(numbers(&labels), [None; 4], "{labels:?}");
-    assert_eq!(labels.not_told, Some(NotTold::SeveralFit { tracks: 4 }));
+    assert_eq!(labels.not_told, Some(NotTold::SeveralFitRates { tracks: 4 }));
 }
 
 #[test]

@@ -100,7 +100,13 @@ pub fn labels_from_log(
         };
         posterior.add(offset_s, is_enough.then(tempered));
     }
-    posterior.labels(source, &names, config)
+    let labels = posterior.labels(source, &names, config);
+    // a log of body rates has no motors
+    let not_told = labels.not_told.map(|reason| match reason {
+        NotTold::SeveralFit { tracks } if source == LabelSource::BodyRates => NotTold::SeveralFitRates { tracks },
+        other => other,
+    });
+    RotorLabels { not_told, ..labels }
 }
 
 /// The offsets to try, in steps about the middle of the limits: a log on the recording's own clock has its offset 0 among them.

@@ -93,8 +93,9 @@ impl<'a> HarmonicWeights<'a> {
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
                     let share = speed / reference - 1.0;
                     difference_share = share.abs().max(difference_share);
-                    let how = if share < 0.0 { "below" } else { "above" };
-                    format!("its speed is {:.1} % {how} that of the others", 100.0 * share.abs())
+                    let how = if share < 0.0 { "lower" } else { "higher" };
+                    let others = if ridge.band.harmonic == 1 { "its multiples" } else { "the other harmonics" };
+                    format!("it is {:.1} % {how} than {others} say, so it may be another sound", 100.0 * share.abs())
                 }
                 (Some(_), Some(_)) => {
                     used.push(ridge);

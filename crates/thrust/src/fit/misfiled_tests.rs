@@ -66,12 +66,19 @@ fn exchanged_masses_are_asked_about() {
         let mut loads = exact_hovers(&[0.0, 0.031, 0.049], trials);
         assert_eq!(misfiled(&fitted(&loads)), [""; 0], "{trials}");
         (loads[0].force, loads[2].force) = (loads[2].force, loads[0].force);
-        let said = misfiled(&fitted(&loads));
+        let table = fitted(&loads);
+        let said = misfiled(&table);
         let slower = "the rotors turned slower under the heavier load \"load 0\" than under the lighter \"load 2\"";
         assert!(said.iter().any(|said| said == slower), "{said:?}");
         // there are no others that they could fit
         let together = said.iter().any(|said| said == "the loads do not fit each other: load 0, load 1, load 2");
         assert_eq!(together, trials > 1, "{said:?}");
+        let hints = || table.warnings.iter().map(ThrustWarning::hint);
+        assert_eq!(hints().any(|hint| hint.contains("without the mass of the vehicle?")), trials > 1);
+        let forbids = table.warnings.iter().filter(|warning| warning.forbids_use());
+        assert!(
+            forbids.clone().count() > 0 && forbids.map(ThrustWarning::hint).all(|hint| hint.starts_with("do not use"))
+        );
     }
 }
 

@@ -6,6 +6,7 @@ mod campaign_tests;
 mod misfiled_tests;
 #[cfg(test)]
 mod outline_tests;
+mod row_misfits;
 #[cfg(test)]
 mod suspicious_tests;
 #[cfg(test)]
@@ -15,6 +16,7 @@ use crate::air::{ThrustCoefficients, figure_of_merit, is_plausible_merit, thrust
 use crate::budget::{UncertaintyBudget, budget_of_fit};
 use crate::campaign::{Campaign, GrossTrial, HeardLoad, trial_bootstrap, whole_vehicle_factor};
 use crate::drift::drifts;
+use crate::force::Force;
 use crate::misfiled::{exchanged_rows, misfiled};
 use crate::outline::{LoadOutline, too_alike, warnings_of_masses, warnings_of_recordings};
 use crate::settings::ThrustSettings;
@@ -25,11 +27,10 @@ use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
 use hovertone_analysis::Method;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
+use row_misfits::warnings_of_misfits;
 
 /// A law that is so many times as probable as another is clearly preferred to it. *Decision.*
 const PREFERRED_FACTOR: f64 = 3.0;
-/// Up to this many misfits of a table have a warning each; more are listed in one. *Decision.*
-const MISFITS_BY_NAME: usize = 3;
 
 /// The thrust constant from loads.
 ///
@@ -246,7 +247,10 @@ fn warnings_of(
     let misfits: Vec<&LoadThrust> = rows.iter().filter(|row| row.fits == Some(false)).collect();
     if misfits.len() > 1 && misfits.len() == campaign.loads.len() {
         let names = misfits.iter().map(|row| row.name.clone()).collect();
-        warnings.push(ThrustWarning::LoadsDisagree { names, are_rows: false });
+        let has_added =
+            |load: &LoadSpeeds| matches!(load.force, Force::Weight { added_mass_kg, .. } if added_mass_kg > 0.0);
+        let has_added_mass = loads.iter().any(has_added);
+        warnings.push(ThrustWarning::LoadsDisagree { names, are_rows: false, has_added_mass });
     } else {
         warnings.extend(misfits.into_iter().map(|row| ThrustWarning::LoadDoesNotFit {
             name: row.name.clone(),
@@ -307,35 +311,11 @@ fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit, are_split: bool) ->
 
 /// Warnings about a fit of the rows of a table. `gravity_m_s2` is given where the rows are masses that hover.
 pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s2: Option<f64>) -> Vec<ThrustWarning> {
-    let mass_kg = |force_n: Option<f64>| Some(force_n? / gravity_m_s2?);
-    let misfit = |point: &PointVerdict| ThrustWarning::LoadDoesNotFit {
-        name: point.name.clone(),
-        is_row: true,
-        mass_that_fits_kg: mass_kg(point.force_that_fits_n),
-        mass_that_fits_std_kg: mass_kg(point.force_that_fits_std_n),
-        is_left_out: point.is_gross,
-    };
-    let mut misfits: Vec<&PointVerdict> = fit.points.iter().filter(|point| point.fits == Some(false)).collect();
-    let log_ratio = |point: &PointVerdict| point.deviation_share.map_or(0.0, |share| share.ln_1p().abs());
-    // a long list is cut: the rows that are farthest off come first
-    misfits.sort_by(|a, b| log_ratio(b).total_cmp(&log_ratio(a)));
-    let mut warnings: Vec<ThrustWarning> = if misfits.len() > 1 && misfits.len() == points.len() {
-        let names = misfits.iter().map(|point| point.name.clone()).collect();
-        vec![ThrustWarning::LoadsDisagree { names, are_rows: true }]
-    } else if misfits.len() <= MISFITS_BY_NAME {
-        misfits.into_iter().map(misfit).collect()
-    } else {
-        let named = |are_left_out: bool| {
-            let of_kind = misfits.iter().filter(|point| point.is_gross == are_left_out);
-            ThrustWarning::RowsDoNotFit { names: of_kind.map(|point| point.name.clone()).collect(), are_left_out }
-        };
-        [true, false]
-            .map(named)
-            .into_iter()
-            .filter(|warning| !matches!(warning, ThrustWarning::RowsDoNotFit { names, .. } if names.is_empty()))
-            .collect()
-    };
-    let exchanged = gravity_m_s2.and_then(|_| exchanged_rows(points));
+    let mut warnings = warnings_of_misfits(&fit.points, gravity_m_s2);
+    // a row that is left out contradicts nothing
+    let is_kept = |(point, verdict): (&ForcePoint, &PointVerdict)| (!verdict.is_gross).then(|| point.clone());
+    let kept: Vec<ForcePoint> = points.iter().zip(&fit.points).filter_map(is_kept).collect();
+    let exchanged = gravity_m_s2.and_then(|_| exchanged_rows(&kept));
     let is_contradicted = exchanged.is_some();
     warnings.extend(exchanged);
     let of_range = range_warnings(points, fit, are_split_points(points));

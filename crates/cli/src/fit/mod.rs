@@ -1,0 +1,247 @@
+//! `hovertone fit`: the thrust constant from tables, and the plan of a campaign.
+
+mod failures;
+mod notices;
+mod planned;
+
+use crate::args::{AirArguments, FitArguments, PlaceArguments};
+use crate::failure::{Ending, Failure};
+use crate::files::sha256_of_bytes;
+use crate::inputs::{is_no_text, read_bytes};
+use crate::place::{air_density_kg_m3, gravity_of};
+use crate::terminal::Terminal;
+use failures::{refuse_absurd_std, table_failure, unfitted, without_scatter};
+use hovertone::thrust::{
+    ForcePoint, Gravity, PointNoise, SquareLawFit, ThrustCoefficients, ThrustWarning, TorqueReading, figure_of_merit,
+    is_plausible_merit, row_drifts, square_law_fit, torque_constant_n_m_s2, warnings_of_points,
+};
+use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, table_from_csv};
+use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json};
+use hovertone_vehicle::{Estimate, RotorSpeed, check_tips, number_in_words};
+use notices::{far_off_notice, hint_of_note, notice_of, rotors_notice, too_large_notice, too_strong_notice};
+use planned::plan_campaign;
+use std::path::Path;
+
+/// The meaning of the arguments.
+struct Plan {
+    gravity: Gravity,
+    rotor_count: u32,
+    /// Whether the user says so; else it is one.
+    is_count_given: bool,
+    diameter_m: Option<f64>,
+    density_kg_m3: Option<f64>,
+}
+
+/// Fits all tables, or plans a campaign.
+pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let gravity = gravity_of(&arguments.place)?;
+    match (arguments.plan.mass_kg, arguments.plan.plan) {
+        (Some(mass_kg), true) => return plan_campaign(arguments, mass_kg, gravity, terminal),
+        (Some(mass_kg), false) => {
+            let what = format!("mass_kg = {} is only for --plan: a table has its own forces", number_in_words(mass_kg));
+            return Err(Failure::usage(what, "leave it out, or give --plan without a table"));
+        }
+        (None, _) => {}
+    }
+    let plan = Plan {
+        gravity,
+        rotor_count: arguments.rotors.unwrap_or(1),
+        is_count_given: arguments.rotors.is_some(),
+        diameter_m: arguments.air.diameter_m,
+        density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
+    };
+    if let Some(notice) = half_given(&arguments.air, &arguments.place) {
+        terminal.tip(&notice);
+    }
+    if arguments.json {
+        let mut all = Vec::new();
+        for path in &arguments.tables {
+            all.extend(fitted_tables(path, &plan)?);
+        }
+        terminal.data(&fitted_tables_json(&all).map_err(Failure::internal)?)?;
+        return Ok(ending_of(&all));
+    }
+    let (mut is_first, mut ending) = (true, Ending::Done);
+    for path in &arguments.tables {
+        let tables = fitted_tables(path, &plan)?;
+        let is_alone = tables.len() == 1 && arguments.tables.len() == 1;
+        ending = ending.max(ending_of(&tables));
+        for table in tables {
+            if !std::mem::take(&mut is_first) {
+                terminal.data("\n")?;
+            }
+            terminal.flush()?;
+            terminal.warning_count_of(table.notices.len(), (!is_alone).then(|| table.name()).as_deref());
+            for notice in &table.notices {
+                terminal.warning(notice, "");
+            }
+            terminal.text(&fitted_table_text(&table, terminal.fold_width()))?;
+        }
+    }
+    Ok(ending)
+}
+
+/// A constant that must not be used is no complete answer.
+fn ending_of(tables: &[FittedTable]) -> Ending {
+    if tables.iter().any(|table| table.forbids_use) { Ending::Incomplete } else { Ending::Done }
+}
+
+/// The notice where a diameter is given without the air, or the air without a diameter.
+fn half_given(air: &AirArguments, place: &PlaceArguments) -> Option<Notice> {
+    let of_air = air.temperature_c.or(air.pressure_hpa).or(air.humidity_percent);
+    match (air.diameter_m, of_air.or(place.height_m)) {
+        (Some(_), None) => Some(Notice::new(
+            "the thrust coefficient C_T is not computed: it needs the density of the air too",
+            "also give --temperature-c and --pressure-hpa, or --height-m",
+        )),
+        (None, Some(_)) if of_air.is_some() => Some(Notice::new(
+            "the thrust coefficient C_T is not computed: it needs the diameter of the propeller too",
+            "also give --diameter-m",
+        )),
+        _ => None,
+    }
+}
+
+fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> {
+    let bytes = read_bytes(path, "the table")?;
+    // headers in Latin-1 are welcome, a recording is not
+    if bytes.contains(&0) {
+        return Err(is_no_text("the table", path, &bytes));
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    let table = table_from_csv(&text).map_err(|error| table_failure(&error, path))?;
+    let sha256 = sha256_of_bytes(&bytes);
+    table.groups.iter().map(|group| fitted_table(group, &table, path, &sha256, plan)).collect()
+}
+
+fn fitted_table(
+    group: &StandGroup,
+    table: &StandTable,
+    path: &Path,
+    sha256: &str,
+    plan: &Plan,
+) -> Result<FittedTable, Failure> {
+    check_tips_of(group, path, plan)?;
+    let points: Vec<ForcePoint> = group.rows.iter().map(|row| point_of(row, plan)).collect();
+    refuse_absurd_std(&points, table, path)?;
+    let noise = if is_stated(group) { PointNoise::Stated } else { PointNoise::FromResiduals };
+    let fit = square_law_fit(&points, noise).map_err(|error| unfitted(&error, &points, path))?;
+    if let Some(reason) = fit.why_no_uncertainty(&points) {
+        return Err(without_scatter(reason, group, table, path));
+    }
+    let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
+    let is_weighed = group.rows.iter().all(is_mass);
+    let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
+    let per_rotor = total.scaled(1.0 / f64::from(plan.rotor_count));
+    let air = plan.diameter_m.zip(plan.density_kg_m3);
+    // torques of several rotors add up with their directions, which are not in the table
+    let has_torque = plan.rotor_count == 1;
+    let torque = |row: &StandRow| {
+        Some(TorqueReading { speed: RotorSpeed::from_rad_s(row.speed_rad_s), torque_n_m: row.torque_n_m? })
+    };
+    let torques: Vec<TorqueReading> = group.rows.iter().filter_map(torque).collect();
+    let coefficients =
+        air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
+    let mut warnings = warnings_of_rows(group, &points, &fit, is_weighed.then_some(plan.gravity.m_s2));
+    let figure_of_merit = merit_of(group, &points, plan);
+    warnings.extend(figure_of_merit.filter(|merit| !is_plausible_merit(*merit)).map(|figure_of_merit| {
+        ThrustWarning::ImplausibleFigureOfMerit { name: "at the largest thrust".to_owned(), figure_of_merit }
+    }));
+    warnings.extend(
+        coefficients
+            .filter(|both| !both.is_plausible)
+            .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller }),
+    );
+    let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m));
+    let too_strong = of_any_air()
+        .or_else(|| too_large_notice(per_rotor))
+        .or_else(|| too_strong_notice(group, per_rotor, plan.is_count_given))
+        .filter(|_| coefficients.is_none());
+    let std_columns = if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] };
+    let of_table = table.notes.iter().map(|note| Notice::new(note, hint_of_note(note)));
+    let notes = rotors_notice(table, is_weighed, plan).into_iter().chain(of_table);
+    Ok(FittedTable {
+        file: path.display().to_string(),
+        sha256: sha256.to_owned(),
+        group: group.name.clone(),
+        speed_column: table.speed_column.clone(),
+        force_column: table.force_column.clone(),
+        row_count: points.len(),
+        thrust_constant_total_n_s2: total,
+        thrust_constant_per_rotor_n_s2: per_rotor,
+        rotor_count: plan.rotor_count,
+        thrust_coefficients: coefficients,
+        propeller_diameter_m: plan.diameter_m,
+        figure_of_merit,
+        torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
+        forbids_use: warnings.iter().any(ThrustWarning::forbids_use),
+        notices: notes
+            .chain(too_strong)
+            .chain(warnings.iter().map(|warning| notice_of(warning, std_columns)))
+            .collect(),
+        fit,
+    })
+}
+
+fn is_stated(group: &StandGroup) -> bool {
+    group.rows.iter().any(|row| row.force_std.is_some() || row.speed_std_rad_s.is_some())
+}
+
+fn has_std(point: &ForcePoint) -> bool {
+    point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0
+}
+
+/// The warnings about the rows and their fit. `gravity_m_s2` is given where the rows are masses that hover.
+fn warnings_of_rows(
+    group: &StandGroup,
+    points: &[ForcePoint],
+    fit: &SquareLawFit,
+    gravity_m_s2: Option<f64>,
+) -> Vec<ThrustWarning> {
+    let mut warnings = warnings_of_points(points, fit, gravity_m_s2);
+    let voltages: Vec<Option<f64>> = group.rows.iter().map(|row| row.voltage_v).collect();
+    warnings.extend(row_drifts(points, &voltages).into_iter().map(ThrustWarning::ConstantDrifts));
+    let (stated, of) = (points.iter().filter(|point| has_std(point)).count(), points.len());
+    if is_stated(group) && stated < of {
+        warnings.push(ThrustWarning::UncertaintiesIncomplete { stated, of });
+    }
+    warnings
+}
+
+/// Refuses the diameter of the arguments where the blade tips of a row would be faster than any multirotor's.
+fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Failure> {
+    for row in &group.rows {
+        let tips = plan.diameter_m.map(|diameter_m| check_tips(diameter_m, RotorSpeed::from_rad_s(row.speed_rad_s)));
+        tips.transpose().map_err(|tips| Failure::Usage {
+            what: format!("line {}: {tips}", row.line_number),
+            hint: tips.hint(),
+            path: Some(path.to_owned()),
+        })?;
+    }
+    Ok(())
+}
+
+/// The uncertainty of gravity is common to all masses and does not average out.
+fn with_gravity(constant: Estimate, gravity: Gravity, is_weighed: bool) -> Estimate {
+    let shared = if is_weighed { constant.value * gravity.std_m_s2 / gravity.m_s2 } else { 0.0 };
+    Estimate { std_uncertainty: constant.std_uncertainty.map(|std| std.hypot(shared)), ..constant }
+}
+
+fn point_of(row: &StandRow, plan: &Plan) -> ForcePoint {
+    let (name, speed) = (format!("line {}", row.line_number), RotorSpeed::from_rad_s(row.speed_rad_s));
+    let (speed_std, force_std) = (row.speed_std_rad_s.unwrap_or(0.0), row.force_std.unwrap_or(0.0));
+    match row.force {
+        StandForce::Thrust { thrust_n } => ForcePoint::from_speed(name, speed, speed_std, thrust_n, force_std),
+        StandForce::Mass { mass_kg } => {
+            ForcePoint::from_mass(name, speed, speed_std, mass_kg, force_std, plan.gravity.m_s2)
+        }
+    }
+}
+
+/// Figure of merit of one rotor at the largest thrust, where an offset of the stand matters least.
+fn merit_of(group: &StandGroup, points: &[ForcePoint], plan: &Plan) -> Option<f64> {
+    let rotors = f64::from(plan.rotor_count);
+    let rows = group.rows.iter().zip(points).filter_map(|(row, point)| Some((point.force_n, row.power_w?)));
+    let (thrust_n, power_w) = rows.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(figure_of_merit(thrust_n / rotors, power_w / rotors, plan.diameter_m?, plan.density_kg_m3?))
+}

@@ -1,0 +1,108 @@
+//! Notices about a fitted table: what was done with its columns, and numbers that no propeller has.
+
+use super::Plan;
+use hovertone::thrust::{ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach};
+use hovertone_exchange::{StandGroup, StandTable};
+use hovertone_report::{Notice, fixed, significant};
+use hovertone_vehicle::{AIR_KG_M3, Estimate, RotorSpeed, THRUST_COEFFICIENT, TIP_MACH_MAX};
+
+/// The air changes C_T by less: thin air on the highest mountains has a third of the density at sea level.
+const FAR_OFF_FACTOR: f64 = 3.0;
+/// Propellers of the largest multirotors are smaller.
+const DIAMETER_M_MAX: f64 = 2.0;
+/// A Mach number above this has an exponent.
+const MACH_WITH_DECIMALS_MAX: f64 = 1e6;
+
+/// A warning about the fit. Where uncertainties are stated, they too may be why rows do not fit.
+pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
+    let is_of_rows = matches!(
+        warning,
+        ThrustWarning::LoadDoesNotFit { is_row: true, .. }
+            | ThrustWarning::LoadsDisagree { are_rows: true, .. }
+            | ThrustWarning::RowsDoNotFit { .. }
+    );
+    match stated {
+        columns if is_of_rows && !columns.is_empty() => {
+            Notice::new(warning.to_string(), format!("{}; or {} is too small", warning.hint(), columns.join(" or ")))
+        }
+        _ => Notice::from(warning),
+    }
+}
+
+/// What to do about a note on a table; empty where it only says what was done with rows.
+pub(super) fn hint_of_note(note: &str) -> &'static str {
+    match note {
+        note if note.contains("its name has no unit") => "if it is meant, put its unit into its name, as in thrust_g",
+        note if note.starts_with("column ") => "if you mean this column, remove the other",
+        _ => "",
+    }
+}
+
+/// A notice where several rotors seem to make the forces, which count as the forces of one.
+pub(super) fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<Notice> {
+    let several = table.rotor_count.filter(|count| *count > 1);
+    let text = match several {
+        _ if plan.is_count_given => return None,
+        Some(count) => {
+            format!("the table names {count} rotors, but its forces are used as the forces of one rotor")
+        }
+        None if is_weighed => "the masses are used as if one rotor carried them".to_owned(),
+        None => return None,
+    };
+    let count = several.map_or_else(|| "N".to_owned(), |count| count.to_string());
+    Some(Notice::new(
+        text,
+        format!("give --rotors {count} for the constant of one rotor; --rotors 1 if one rotor is right"),
+    ))
+}
+
+/// Says that C_T is far outside the range of propellers in the air of any place.
+pub(super) fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Notice> {
+    let coefficient = ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, AIR_KG_M3).propeller;
+    let (least, most) = (*THRUST_COEFFICIENT.start(), *THRUST_COEFFICIENT.end());
+    let is_far = coefficient < least / FAR_OFF_FACTOR || coefficient > most * FAR_OFF_FACTOR;
+    let text = format!(
+        "with this diameter, the thrust coefficient C_T would be {} in air of {AIR_KG_M3} kg/m³, but propellers have {least} to {most}",
+        significant(coefficient, 2)
+    );
+    let hint = "check the units of the forces and of the speeds (rpm, rev/s or rad/s), the diameter, and --rotors";
+    is_far.then(|| Notice::new(text, hint))
+}
+
+/// Says that a propeller with such a constant would be larger than any multirotor's.
+pub(super) fn too_large_notice(per_rotor: Estimate) -> Option<Notice> {
+    let diameter_m = least_diameter_m(per_rotor.value);
+    let text = format!(
+        "a propeller with this thrust constant would have a diameter of {} m or more",
+        significant(diameter_m, 2)
+    );
+    let hint = "check whether the columns of speed and force are exchanged, and check their units";
+    (diameter_m > DIAMETER_M_MAX).then(|| Notice::new(text, hint))
+}
+
+/// Says that no propeller has such a thrust.
+pub(super) fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_count_given: bool) -> Option<Notice> {
+    let fastest_rad_s = group.rows.iter().map(|row| row.speed_rad_s).fold(0.0, f64::max);
+    let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
+    let mach = if tip_mach < MACH_WITH_DECIMALS_MAX { fixed(tip_mach, 2) } else { format!("{tip_mach:.0e}") };
+    let text = format!(
+        "no propeller has this thrust at this speed: its tips would move at Mach {mach} (times the speed of sound) or faster"
+    );
+    let rotors = if is_count_given { "--rotors" } else { "give the number of rotors with --rotors" };
+    let hint = format!("check the units of the forces and of the speeds, and {rotors}");
+    (tip_mach > TIP_MACH_MAX).then(|| Notice::new(text, hint))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stated_uncertainties_are_named_where_rows_do_not_fit() {
+        let columns = ["thrust_std_g".to_owned()];
+        let of_rows = ThrustWarning::RowsDoNotFit { names: vec!["line 3".to_owned()], are_left_out: false };
+        assert!(notice_of(&of_rows, &columns).hint.ends_with("; or thrust_std_g is too small"));
+        assert_eq!(notice_of(&of_rows, &[]), Notice::from(&of_rows));
+        assert_eq!(notice_of(&ThrustWarning::SingleLoad, &columns), Notice::from(&ThrustWarning::SingleLoad));
+    }
+}

@@ -1,0 +1,65 @@
+//! The plan of a campaign: how many flights a wanted uncertainty needs.
+
+use crate::args::FitArguments;
+use crate::failure::{Ending, Failure};
+use crate::place::refuse_height_alone;
+use crate::terminal::Terminal;
+use hovertone::thrust::{Gravity, PlanError, PlanWish, ThrustSettings, flight_plan};
+use hovertone_report::flight_plan_text;
+use hovertone_vehicle::{KnownRotor, QuantityError};
+
+/// Most multirotors safely carry a quarter of their mass.
+const ADDED_MASS_SHARE: f64 = 0.25;
+/// Number of rotors of most multirotors.
+const ROTORS_OF_MOST: u32 = 4;
+
+/// Prints the plan for a vehicle of this mass.
+pub(super) fn plan_campaign(
+    arguments: &FitArguments,
+    mass_kg: f64,
+    gravity: Gravity,
+    terminal: &mut Terminal,
+) -> Result<Ending, Failure> {
+    refuse_height_alone(&arguments.place)?;
+    let asked = &arguments.plan;
+    let rotor_count = arguments.rotors.unwrap_or(ROTORS_OF_MOST);
+    let flown = KnownRotor {
+        diameter_m: arguments.air.diameter_m,
+        mass_kg: Some(mass_kg),
+        rotor_count: Some(rotor_count),
+        ..KnownRotor::default()
+    };
+    let wish = PlanWish {
+        wanted_share: asked.wanted_share,
+        vehicle_mass_kg: mass_kg,
+        added_mass_kg_max: asked.added_mass_kg.unwrap_or(ADDED_MASS_SHARE * mass_kg),
+        mass_std_kg: asked.mass_std_kg,
+        gravity_m_s2: gravity.m_s2,
+        gravity_std_m_s2: gravity.std_m_s2,
+        speed_spread_share: asked.speed_spread_share,
+        correlation_time_s: asked.correlation_s,
+        settings: ThrustSettings {
+            follows_loudest: !asked.rotors_separated,
+            propeller_diameter_m: arguments.air.diameter_m,
+            ..ThrustSettings::for_rotors(rotor_count)
+        },
+    };
+    let plan = flight_plan(&wish).map_err(|error| {
+        let hint = match error {
+            PlanError::OutOfReach { .. } => {
+                "give a larger --wanted-share; or measure better, and then plan again: weigh more exactly (--mass-std-kg), tell where you fly (--latitude-deg), \
+                 or record from so near that `hovertone speed` separates the rotors (--rotors-separated)"
+            }
+            PlanError::Quantity(QuantityError { name: "wanted_share", .. }) => "for 2 % give --wanted-share 0.02",
+            _ => "see `hovertone fit --help`",
+        };
+        Failure::usage(error.to_string(), hint)
+    })?;
+    flown.check_hover()?;
+    if arguments.json {
+        terminal.data(&(serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"))?;
+    } else {
+        terminal.text(&flight_plan_text(&plan, &wish))?;
+    }
+    Ok(Ending::Done)
+}

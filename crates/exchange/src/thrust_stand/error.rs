@@ -1,0 +1,61 @@
+//! Errors in tables of thrust stands.
+
+use crate::csv_text::CsvError;
+use hovertone_vehicle::number_in_words;
+
+/// Error in a table.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// No table, or a cell that is not a number.
+    #[error(transparent)]
+    Csv(#[from] CsvError),
+    /// A column is missing.
+    #[error("no column holds {what}; the columns are: {columns}")]
+    NoColumn {
+        /// The missing quantity.
+        what: &'static str,
+        /// The headers.
+        columns: String,
+    },
+    /// A column of the missing quantity is there, without its unit.
+    #[error("column \"{column}\" has no unit that hovertone knows, and no other column holds a thrust or a mass")]
+    NoUnit {
+        /// Header of the column.
+        column: String,
+    },
+    /// A number out of range.
+    #[error("line {line}, column \"{column}\": {}: {must_be}", number_in_words(*value))]
+    OutOfRange {
+        /// Line, counted from 1.
+        line: u64,
+        /// Header of its column.
+        column: String,
+        /// The number.
+        value: f64,
+        /// Allowed numbers.
+        must_be: &'static str,
+    },
+    /// Numbers of several rows that only another unit than that of the header explains.
+    #[error("column \"{column}\": {count} of {of} numbers are {must_be}; the largest one is {}", number_in_words(*largest))]
+    OtherUnit {
+        /// Header of the column.
+        column: String,
+        /// Numbers beyond the limit.
+        count: usize,
+        /// All numbers of the column.
+        of: usize,
+        /// The largest of these numbers.
+        largest: f64,
+        /// The limit.
+        must_be: &'static str,
+        /// A header with the unit that is probably meant; absent where none of the known units is.
+        header: Option<&'static str>,
+    },
+    /// A header alone.
+    #[error("the table has a header and no row below it")]
+    HeaderAlone,
+    /// No row with a turning rotor.
+    #[error("no row has both a speed and a thrust: there is nothing to fit")]
+    NoRow,
+}
