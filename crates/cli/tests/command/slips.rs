@@ -1,6 +1,8 @@
 //! Slips of units and names: each is taken as meant where a unit is typed, and refused with the plausible slip where none is.
 
-use crate::testkit::{hovertone, hovertone_with, refused_with, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{
+    hovertone, hovertone_with, refused_with, steady_hover, text, write_hover, write_noise, write_steady_hover_and_log,
+};
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
 
@@ -251,10 +253,7 @@ fn a_table_without_names_and_a_unit_that_stands_alone_are_understood() {
 #[test]
 fn wrong_limits_of_an_offset_are_named() {
     let folder = tempfile::tempdir().unwrap();
-    let (sound, log) = (folder.path().join("hover.wav"), folder.path().join("log.csv"));
-    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
-    let rows: String = (0..60).map(|row| format!("{:.1},3678,3678,3678,3678\n", 0.1 * f64::from(row))).collect();
-    fs::write(&log, format!("time_s,rotor1_rpm,rotor2_rpm,rotor3_rpm,rotor4_rpm\n{rows}")).unwrap();
+    let (sound, log) = write_steady_hover_and_log(folder.path());
     let asked = ["verify", text(&sound), text(&log), "--vehicle", "ardrone", "--mean-only"];
     let far = hovertone(&[&asked[..], &["--log-offset-s", "100:200"]].concat()).ends_with(1).stderr;
     assert!(

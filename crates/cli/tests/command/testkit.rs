@@ -83,6 +83,15 @@ pub(crate) fn write_hover(path: &Path, settings: HoverSettings) {
     write_wav(path, &samples, rate_hz);
 }
 
+/// A steady hover of an AR.Drone in a folder, and a log of its four motors, which agrees at any offset of the clocks.
+pub(crate) fn write_steady_hover_and_log(folder: &Path) -> (PathBuf, PathBuf) {
+    let (sound, log) = (folder.join("hover.wav"), folder.join("log.csv"));
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
+    let rows: String = (0..60).map(|row| format!("{:.1},3678,3678,3678,3678\n", 0.1 * f64::from(row))).collect();
+    fs::write(&log, format!("time_s,rotor1_rpm,rotor2_rpm,rotor3_rpm,rotor4_rpm\n{rows}")).unwrap();
+    (sound, log)
+}
+
 /// White noise of a standard deviation of 0.06, the same at every run.
 pub(crate) fn write_noise(path: &Path, duration_s: f64) {
     let rate_hz = 44_100;

@@ -1,7 +1,6 @@
 //! `hovertone verify`: sound of a simulated flight against a log of it.
 
-use crate::testkit::{flown_hover, hovertone, refused_with, steady_hover, text, write_hover};
-use hovertone_vehicle::RotorSpeed;
+use crate::testkit::{flown_hover, hovertone, refused_with, text, write_steady_hover_and_log};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -86,10 +85,7 @@ fn a_wrong_offset_and_another_flight_do_not_pass() {
 #[test]
 fn steady_speeds_do_not_show_whose_log_it_is() {
     let folder = tempfile::tempdir().unwrap();
-    let (sound, log) = (folder.path().join("hover.wav"), folder.path().join("log.csv"));
-    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
-    let rows: String = (0..60).map(|row| format!("{:.1},3678,3678,3678,3678\n", 0.1 * f64::from(row))).collect();
-    fs::write(&log, format!("time_s,rotor1_rpm,rotor2_rpm,rotor3_rpm,rotor4_rpm\n{rows}")).unwrap();
+    let (sound, log) = write_steady_hover_and_log(folder.path());
     let asked = ["verify", text(&sound), text(&log), "--vehicle", "ardrone", "--mean-only"];
     let run = hovertone(&asked).ends_with(3);
     for words in
