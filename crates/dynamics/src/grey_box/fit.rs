@@ -115,32 +115,33 @@ impl GreyBoxFit {
     /// The same with a standard uncertainty of the time of all changes, such as that of echoes, which arrive later than the sound
     /// itself: it is one of the time constant and of the delays, and P times it is one of D.
     #[must_use]
-    pub(crate) fn with_time_uncertainty(mut self, std_s: f64) -> Self {
-        for (std_uncertainty, parameter) in self.std_uncertainty.iter_mut().zip(Parameter::all()) {
-            let by_time = match parameter {
-                Parameter::TimeConstant | Parameter::CommandDelay | Parameter::MeasuredDelay => std_s,
-                Parameter::Derivative(axis) => std_s * self.model.loops[axis as usize].proportional,
-                _ => 0.0,
-            };
-            *std_uncertainty = std_uncertainty.map(|std_uncertainty| std_uncertainty.hypot(by_time));
-        }
-        self
+    pub(crate) fn with_time_uncertainty(self, std_s: f64) -> Self {
+        let loops = self.model.loops;
+        self.with_added_uncertainty(|parameter| match parameter {
+            Parameter::TimeConstant | Parameter::CommandDelay | Parameter::MeasuredDelay => std_s,
+            Parameter::Derivative(axis) => std_s * loops[axis as usize].proportional,
+            _ => 0.0,
+        })
     }
 
     /// The same with the Doppler effect of motion that follows the commands. A roll rate p moves a rotor at the lever y up by p y, so that its
     /// sound rises by `ω p y sin ε / c` at a microphone ε above its plane: this cannot be told from the derivative's gain, nor the effect of the
     /// climb from the gain of the climb. Where the microphone is, is not known.
     #[must_use]
-    pub(crate) fn with_doppler_uncertainty(mut self, lever_m: [f64; 2]) -> Self {
+    pub(crate) fn with_doppler_uncertainty(self, lever_m: [f64; 2]) -> Self {
         let per_m_s = self.model.mean_hover_rad_s() * SINE_STD / SOUND_M_S;
+        self.with_added_uncertainty(|parameter| match parameter {
+            Parameter::Derivative(Axis::Roll) => lever_m[0] * per_m_s,
+            Parameter::Derivative(Axis::Pitch) => lever_m[1] * per_m_s,
+            Parameter::Proportional(Axis::Climb) => per_m_s,
+            _ => 0.0,
+        })
+    }
+
+    /// The same with another, independent standard uncertainty of each parameter that the flight tells.
+    fn with_added_uncertainty(mut self, std_of: impl Fn(Parameter) -> f64) -> Self {
         for (std_uncertainty, parameter) in self.std_uncertainty.iter_mut().zip(Parameter::all()) {
-            let by_motion = match parameter {
-                Parameter::Derivative(Axis::Roll) => lever_m[0] * per_m_s,
-                Parameter::Derivative(Axis::Pitch) => lever_m[1] * per_m_s,
-                Parameter::Proportional(Axis::Climb) => per_m_s,
-                _ => 0.0,
-            };
-            *std_uncertainty = std_uncertainty.map(|std_uncertainty| std_uncertainty.hypot(by_motion));
+            *std_uncertainty = std_uncertainty.map(|std_uncertainty| std_uncertainty.hypot(std_of(parameter)));
         }
         self
     }

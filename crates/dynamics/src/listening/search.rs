@@ -73,7 +73,7 @@ pub(super) fn start_model(
             GreyBoxModel { command_delay_s: delay_s, measured_delay_s: delay_s, ..model }
         });
         model = best(late.into_iter(), score).unwrap_or(model);
-        model = better_gains(&model, start, score).unwrap_or(model);
+        model = better_model(&model, start, score).unwrap_or(model);
         let slower =
             TIME_FACTORS.map(|factor| GreyBoxModel { time_constant_s: factor * start.time_constant_s, ..model });
         model = best(slower.into_iter(), score).unwrap_or(model);
@@ -104,7 +104,7 @@ pub(super) fn with_delay(
 /// that are later or earlier, with a part of the time constant as a delay,
 /// and with motors that are alike, where that makes the sound clearly more likely. `None` if nothing
 /// changes.
-fn better_gains(
+fn better_model(
     model: &GreyBoxModel,
     start: &GreyBoxModel,
     score: impl Fn(&GreyBoxModel) -> f64,
@@ -249,7 +249,7 @@ pub(super) fn reseated(
     let hover_rad_s = std::array::from_fn(|rotor| model.hover_rad_s[rotor] + wholly.offset_rad_s[rotor]);
     let seated = GreyBoxModel { hover_rad_s, ..*model };
     let score = |model: &GreyBoxModel| score(heard, order_max, inputs, model, &windows);
-    better_gains(&seated, start, score).or((now > before).then_some(seated))
+    better_model(&seated, start, score).or((now > before).then_some(seated))
 }
 
 /// Listens along one prediction with the hover speeds off it.
