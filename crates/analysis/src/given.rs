@@ -2,6 +2,10 @@
 
 use crate::Warning;
 
+/// Advice where several rotors sound in the band.
+const NARROWER_BAND: &str =
+    "hovertone follows the rotor that is loudest at each moment; to follow one rotor, give a narrower --band";
+
 /// Which facts were given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GivenFacts {
@@ -72,8 +76,7 @@ impl GivenFacts {
                     | Warning::SeveralLines { .. }
             )
         };
-        let hint = |warning: &&Warning| {
-            match warning {
+        let hint = |warning: &&Warning| match warning {
             Warning::FitsElsewhere(_) => format!("check {}", self.in_words("and")),
             warning if self.window && is_about_ridge(warning) => {
                 "leave --window-s out: hovertone then chooses a window that fits the tone".to_owned()
@@ -82,12 +85,8 @@ impl GivenFacts {
             Warning::FewHarmonicsAgree { .. } if self.band => {
                 format!("{}, or give a narrower --band", self.in_given_words(warning.hint()))
             }
-            Warning::SeveralLines { .. } if self.band => {
-                "hovertone follows the rotor that is loudest at each moment; to follow one rotor, give a narrower --band"
-                    .to_owned()
-            }
+            Warning::SeveralLines { .. } if self.band => NARROWER_BAND.to_owned(),
             other => self.in_given_words(other.hint()),
-        }
         };
         warnings.iter().map(hint).collect()
     }
