@@ -11,26 +11,9 @@ pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
     ("--mass-kg", "--mass"),
 ]);
 
-/// Behind `demo`: nobody can change its simulated flights.
-pub(crate) const IN_DEMO: Wording = Wording {
-    phrases: &[
-        (ONE_MEAN, "there is nothing to do: C_f uses the mean speed of the four rotors"),
-        (ONE_TONE, "there is nothing to do: the ± of C_f allows for this"),
-    ],
-    ..Wording::IN_EXPERIMENT
-};
-
 /// Behind `spectrogram`, which prints no speed.
 pub(crate) const IN_PICTURE: Wording =
     Wording::of_phrases(&[("the speed is the mean of all rotors, and its ± allows for this; ", "")]);
-
-/// Advice about rotors that are heard as a group.
-const ONE_MEAN: &str = "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; \
-    to separate more, place the microphone nearer";
-
-/// Advice about rotors for which one tone stands.
-const ONE_TONE: &str = "to separate them and get a smaller ±, place the microphone nearer and record without compression; rotors at equal speeds \
-    cannot be separated";
 
 #[cfg(test)]
 mod tests {
@@ -98,9 +81,9 @@ mod tests {
         assert!(advice().iter().any(|advice| !unknown_flags(advice, "identify").is_empty()));
     }
 
-    /// A newcomer wrote no experiment file, and places no microphone in a simulation.
+    /// A reader of `demo` wrote no experiment file and cannot move a microphone: the advice says first that the constant is right.
     #[test]
-    fn the_demo_asks_for_nothing_and_a_picture_has_no_speed() {
+    fn in_an_experiment_the_constant_comes_first_and_a_picture_has_no_speed() {
         let apart = |has_mean: bool| Warning::RotorsNotApart {
             resolved: 0,
             of: 4,
@@ -109,8 +92,8 @@ mod tests {
             spread_share: 0.006,
         };
         for has_mean in [true, false] {
-            let worded = IN_DEMO.of(apart(has_mean).hint());
-            assert!(worded.starts_with("there is nothing to do: ") && !worded.contains("microphone"), "{worded}");
+            let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());
+            assert!(worded.starts_with("C_f uses their mean speed, and its ± allows for this; "), "{worded}");
         }
         let drawn = IN_PICTURE.of(apart(true).hint());
         assert!(drawn.starts_with("if fewer rotors turn, give their number with --rotors;"), "{drawn}");

@@ -19,6 +19,14 @@ impl Wording {
             ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
             ("--harmonics 1", "harmonics = 1 under [tone]"),
             (
+                "the speed is the mean of all rotors, and its ± allows for this",
+                "C_f uses their mean speed, and its ± allows for this",
+            ),
+            (
+                "to separate them and get a smaller ±, ",
+                "C_f uses their mean speed, and its ± allows for this; to separate them and get a smaller ±, ",
+            ),
+            (
                 "if fewer rotors turn, give their number with --rotors",
                 "if fewer rotors turn, write in the experiment file, under [vehicle], rotors = N (of a bench, rotors_running = N under its [[load]])",
             ),

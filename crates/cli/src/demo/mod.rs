@@ -12,7 +12,6 @@ use crate::report_folder::PAGE;
 use crate::terminal::Terminal;
 use crate::today::today;
 use crate::typed::typed_command;
-use crate::wording::IN_DEMO;
 use hovertone::speed::Method;
 use hovertone::thrust::ThrustTable;
 use hovertone_report::{
@@ -32,7 +31,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     let experiment = folder::write_experiment(folder, arguments.seed)?;
     let truths = render::render_all(arguments.seed, folder, !arguments.no_progress)?;
     folder::write_truth(folder, &truths)?;
-    let source = ExperimentSource { wording: IN_DEMO, ..ExperimentSource::read(&experiment)? };
+    let source = ExperimentSource::read(&experiment)?;
     let recordings = jobs_of(&source, None)?;
     let hearing = Hearing { wants_hash: true, wants_samples: true, ..Hearing::default() };
     let method = source.experiment.config.method;
