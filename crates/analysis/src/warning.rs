@@ -164,7 +164,9 @@ impl Warning {
             Self::OtherSteadySpeed { .. } | Self::HoversDiffer { .. } => {
                 "choose the part you mean with --from and --to"
             }
-            Self::HoverShorterThanSample { .. } => "record a longer hover, or write a smaller length_s under [samples]",
+            Self::HoverShorterThanSample { .. } => {
+                "record a longer hover, or write a smaller length_s under [samples] in the experiment file"
+            }
             _ if self.is_hardly_heard() => {
                 "do not use this speed yet; first check the vehicle and its blades; if they are right, move the microphone nearer, or choose \
                  the clear part with --from and --to"
@@ -206,9 +208,11 @@ impl fmt::Display for Warning {
                 f.write_str(&on_edge_text(*harmonic, *frames_share, [*band_hz_low, *band_hz_high]))
             }
             Self::HarmonicLeftOut { harmonic: 1, reason } => {
-                write!(f, "the lowest line of the tone is not used: {reason}")
+                write!(f, "the lowest frequency of the tone is not used: {reason}")
             }
-            Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is not used: {reason}"),
+            Self::HarmonicLeftOut { harmonic, reason } => {
+                write!(f, "harmonic {harmonic} of the tone (its frequency times {harmonic}) is not used: {reason}")
+            }
             Self::BandCutByCodec { above_hz } => {
                 write!(
                     f,
@@ -221,7 +225,7 @@ impl fmt::Display for Warning {
                     let show = if *used == 1 { "shows" } else { "show" };
                     write!(f, "only {used} of {of} harmonics (multiples of the tone) {show} the same speed")
                 } else {
-                    f.write_str("the lowest line of the tone shows another speed than its multiples")
+                    f.write_str("the lowest frequency of the tone shows another speed than its multiples")
                 }
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
@@ -237,7 +241,8 @@ impl fmt::Display for Warning {
             Self::HoverShorterThanSample { hover_s, length_s } => {
                 write!(
                     f,
-                    "the hover ({hover_s:.1} s) is shorter than one sample ({length_s:.1} s), and is used as one sample"
+                    "the hover ({hover_s:.1} s) is shorter than one sample (a part of {length_s:.1} s), so the whole \
+                    hover is used as one sample"
                 )
             }
             Self::ManyGaps { gap_share } => {
@@ -267,8 +272,8 @@ impl fmt::Display for Warning {
             Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
-                "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is more than 99 times as \
-                probable"
+                "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is \
+                more than 99 times as probable as the given rotor"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(
@@ -346,7 +351,8 @@ mod tests {
         assert_eq!(edge(1).to_string(), expected);
         assert_eq!(
             all[0].to_string(),
-            "the lowest line of the tone is not used: it is 2.0 % higher than its multiples say, so it may be another sound"
+            "the lowest frequency of the tone is not used: it is 2.0 % higher than its multiples say, so it may be \
+            another sound"
         );
     }
 

@@ -52,7 +52,7 @@ pub(crate) fn advise_by_constant(record: &mut SpeedRecord, heard: &HeardTone, ty
         _ if record.spoiled.is_some() => {}
         Some(Some(OtherRotor { blades, speed_rev_s })) => {
             record.spoiled = Some(format!(
-                "{not_heard}. But one with {blades} blades may turn at {speed_rev_s:.1} rev/s: {OTHER_VEHICLE}"
+                "{not_heard}. But a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s: {OTHER_VEHICLE}"
             ));
         }
         Some(None) => record.spoiled = Some(format!("{not_heard}; {OTHER_VEHICLE}, or move the microphone nearer")),

@@ -79,7 +79,7 @@ fn rotors_are_named_by_rates_and_by_speeds_and_by_neither() {
     // what does not reach over the hover says nothing, and is said
     let nothing = run(&["--log", text(&speeds), "--log-offset-s=-5:5"], 3);
     assert_eq!(names(&nothing), ["-"; 4]);
-    assert!(nothing["warnings"].to_string().contains("share too little time"), "{}", nothing["warnings"]);
+    assert!(nothing["warnings"].to_string().contains("covers too little time"), "{}", nothing["warnings"]);
     let without = run(&["--condition"], 0);
     assert!(
         without["labels"]["source"].is_null()
