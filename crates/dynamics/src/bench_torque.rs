@@ -58,7 +58,8 @@ impl BenchTorque {
         match self {
             Self::Told { .. } => None,
             Self::NoTorque => Some(
-                "this log has no torque; log the torque of a test stand, or fly yaw manoeuvres and use `hovertone greybox`"
+                "this log has no torque; log the torque that a test stand measures, or fly yaw manoeuvres and use \
+                `hovertone greybox`"
                     .to_owned(),
             ),
             Self::SeveralMotors => {

@@ -73,7 +73,7 @@ fn tables_of_other_languages_are_told_what_to_change() {
     refused_with(&["fit", text(&table)], &["no column holds a speed", "rename its header, as in speed_rpm"]);
     refused_with(
         &["log", text(&table)],
-        &["no column has a name for the time", "rename the header of the times", "--column"],
+        &["no header names the time", "rename the header of the time column", "--column"],
     );
     let wide: Vec<u8> = german.encode_utf16().flat_map(u16::to_le_bytes).collect();
     fs::write(&table, [&b"\xff\xfe"[..], &wide].concat()).unwrap();

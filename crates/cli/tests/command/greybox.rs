@@ -92,7 +92,11 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let other = log("other.csv", "time_s,rotor1_rpm\n0,6000\n1,6000\n");
     lacks(
         &other,
-        &["no command together with the angle or rate", "climb lacks its command", "log a column command_roll, ±1"],
+        &[
+            "no command together with the angle or rate",
+            "climb lacks its command",
+            "log a column command_roll with values from −1 to 1",
+        ],
     );
     refused_with(&["greybox", &short, "--vehicle", "ardron"], &["did you mean \"ardrone\"?"]);
     let turning = format!("{head},speed_1_rad_s,speed_2_rad_s,speed_3_rad_s,speed_4_rad_s");

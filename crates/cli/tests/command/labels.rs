@@ -103,7 +103,7 @@ fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
     refused(rates, &["--rotors", "4", "--blades", "2", "--log-axes", "flu"], &["places of the rotors", "--layout"]);
     refused(rates, &["--blades", "2"], &["needs the number of rotors", "--rotors 4"]);
     refused(rates, &["b.wav", "--vehicle", "ardrone"], &["2 recordings", "the same flight"]);
-    refused("time,motor1_pwm\n", &["--vehicle", "ardrone"], &["time with its unit", "log.csv"]);
+    refused("time,motor1_pwm\n", &["--vehicle", "ardrone"], &["the time and its unit", "log.csv"]);
     refused("time_s,motor1_pwm\n0,x\n", &["--vehicle", "ardrone"], &["line 2", "\"x\""]);
     let missing = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", "missing.csv"]).ends_with(1);
     assert!(missing.stderr.contains("missing.csv"), "{}", missing.stderr);

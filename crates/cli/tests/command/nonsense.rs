@@ -212,7 +212,7 @@ fn rows_have_the_cells_of_the_header() {
     ] {
         let arguments = fit(row);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        refused_with(&arguments, &[words, "commas are decimal", "stand.csv"]);
+        refused_with(&arguments, &[words, "the decimal sign is a comma", "stand.csv"]);
     }
     let arguments = fit("3500,1.36,");
     hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0);

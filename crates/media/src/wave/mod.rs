@@ -202,7 +202,7 @@ fn layout_from_data<R: Read + Seek>(
         wrong_size: is_placeholder.then_some((declared, rest)),
     };
     if layout.data_bytes < layout.block_bytes {
-        let why = format!("{} bytes follow the header, less than one block of samples", layout.data_bytes);
+        let why = format!("only {} bytes follow the header, less than one audio sample", layout.data_bytes);
         return Err(MediaError::NoSamples { container, why });
     }
     Ok(layout)
