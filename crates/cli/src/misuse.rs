@@ -272,15 +272,15 @@ mod tests {
             ("hovertone speed a.wav --method guess", "--method guess: there is no such value (give one of: "),
             (
                 "hovertone speed a.wav --blades",
-                "--blades has no value (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades has no value (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --blades -1",
-                "--blades -1: must be a whole number from 1 to 20 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades -1: must be a whole number from 1 to 20 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --blades two",
-                "--blades two: must be a whole number from 1 to 20 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades two: must be a whole number from 1 to 20 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --window-s long",
@@ -296,7 +296,7 @@ mod tests {
                 "there is no flag --true-rpm (did you mean --tachometer-rpm?)",
             ),
             ("hovertone speed a.wav --blade 2", "there is no flag --blade (did you mean --blades?)"),
-            ("hovertone weigh a.wav --added 0.1", "there is no flag --added (as in `hovertone weigh "),
+            ("hovertone weigh a.wav --added 0.1", "there is no flag --added (for example `hovertone weigh "),
             ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
             ("hovertone speeed a.wav", "there is no command \"speeed\" (did you mean speed?)"),
@@ -306,13 +306,13 @@ mod tests {
             ("hovertone quality", "there is no command \"quality\" (`hovertone --help` lists all commands)"),
             (
                 "hovertone speed",
-                "speed needs at least one recording (as in `hovertone speed --blades 2 hover.mp4`; see",
+                "speed needs at least one recording (for example `hovertone speed --blades 2 hover.mp4`; see",
             ),
-            ("hovertone weigh a.wav", "weigh needs a thrust constant: --constant RESULTS.json (as in `hovertone weigh"),
+            ("hovertone weigh a.wav", "weigh needs a thrust constant: --constant RESULTS.json (for example `hovertone weigh"),
             ("hovertone batch", "batch needs a folder for the results: -o OUT, and a folder with recordings (as in"),
             (
                 "hovertone demo extra",
-                "\"extra\" has no place in this command (as in `hovertone demo`; see `hovertone demo --help`)",
+                "\"extra\" has no place in this command (for example `hovertone demo`; see `hovertone demo --help`)",
             ),
             (
                 "hovertone spectrogram a.wav b.wav -o x.png",

@@ -78,7 +78,7 @@ fn folder_in_words(folder: &Path) -> String {
 /// What to say of a pattern where one recording is needed.
 fn pattern_in_words(pattern: &Path) -> String {
     match files_of(pattern).iter().filter(|file| file.is_file()).collect::<Vec<_>>().as_slice() {
-        [] => "no file matches this pattern; check the folder and the ending of its files".to_owned(),
+        [] => "no file matches this pattern; check the folder and the ending in the pattern, such as *.wav".to_owned(),
         [first, ..] => {
             format!("this is a pattern, and one recording is heard at a time; name one, such as {}", first.display())
         }

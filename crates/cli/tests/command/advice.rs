@@ -29,11 +29,11 @@ fn identify_names_keys_of_its_file_and_flags_of_its_own() {
 #[test]
 fn a_flag_beside_an_experiment_file_is_told_its_key() {
     let keys =
-        [("--order=69", "order under [tone]"), ("--from=3", "from_s under [[load]]"), ("--mass=0.4", "mass_kg in")];
+        [("--order=69", "order under [tone]"), ("--from=3", "from_s under [[load]]"), ("--mass=0.4", "mass_kg under")];
     for (flag, key) in keys {
-        refused_with(&["identify", "e.toml", flag], &["write it into the experiment file, as", key]);
+        refused_with(&["identify", "e.toml", flag], &["in the experiment file", key]);
     }
-    refused_with(&["identify", "--order", "69"], &["only an experiment file has a place for it", "order under [tone]"]);
+    refused_with(&["identify", "--order", "69"], &["in an experiment file instead", "order under [tone]"]);
 }
 
 #[test]
@@ -154,7 +154,10 @@ fn a_rotor_without_a_gear_is_told_that_no_mesh_is_heard() {
     write_noise(&sound, 4.0);
     let said = hovertone(&["speed", text(&sound), "--vehicle", "ardrone"]).ends_with(3).stderr;
     assert!(
-        said.contains("the tone of the gear (order 69) is not heard at 920 to 8280 Hz, as of 13 to 120 rev/s"),
+        said.contains(
+            "the tone of the gear (69 times the rotor speed) is not heard at 920 to 8280 Hz, where 13 to 120 rev/s \
+            would sound"
+        ),
         "{said}"
     );
     assert!(said.contains("if the rotors have no gear, give --blades N alone"), "{said}");

@@ -198,12 +198,13 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ),
         (
             "identify --vehicle ardrone hover.mov",
-            "error: the mass that hovers in the recording is missing (hint: write each recording directly behind its mass, as in --mass 413g \
+            "error: the mass of the vehicle in the recording is missing (hint: write each recording directly after \
+             its mass, as in --mass 413g \
              hover.mov)",
         ),
         (
             "identify --mass 413g --vehicle ardrone hover.mov",
-            "error: a file that does not stand behind a mass counts as the experiment file (hint: write each recording directly behind its \
+            "error: a file without a mass before it counts as the experiment file (hint: write each recording directly after its \
              mass, as in --mass 413g hover.mov, and all other flags before --mass)",
         ),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),

@@ -336,7 +336,7 @@ fn a_recording_counts_once() {
         fs::write(&experiment, format!("{vehicle}{loads}")).unwrap();
         refused_with(
             &["identify", text(&experiment)],
-            &["a.wav is given twice: counted twice, it would make the ± too small"],
+            &["a.wav is given twice: a recording that counts twice makes the uncertainty (±) too small"],
         );
     }
     // a pattern may hold a file that is named as well

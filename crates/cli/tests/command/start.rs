@@ -123,7 +123,7 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
     flags("identify --mass 0.0005=a.wav --vehicle ardrone", &["--mass 0.0005=a.wav: ", "from 0.001"]);
     flags(
         "identify --mass 0.4=a.wav --mass 9=b.wav --vehicle ardrone",
-        &["--mass 9000 g and --mass 400 g: ", "check --mass 9000 g"],
+        &["--mass 9000 g and --mass 400 g: ", "of --mass 9000 g"],
     );
     flags("identify --mass 0.4=a.wav --vehicle ardrone --height-m 40", &["--height-m 40 alone", "--latitude-deg"]);
     refuses(&["init"], &["no terminal", "--mass"]);
