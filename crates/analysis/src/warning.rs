@@ -335,7 +335,7 @@ mod tests {
             let (band_hz_low, band_hz_high) = (140.4 * times, 165.0 * times);
             Warning::RidgeOnBandEdge { harmonic, frames_share: 0.67, band_hz_low, band_hz_high }
         };
-        let reason = "it is 2.0 % higher than its multiples say, so it may be another sound".to_owned();
+        let reason = "it is 2.0 % higher than its multiples show, so it may be another sound".to_owned();
         let all = [
             Warning::HarmonicLeftOut { harmonic: 1, reason },
             edge(1),
@@ -351,7 +351,7 @@ mod tests {
         assert_eq!(edge(1).to_string(), expected);
         assert_eq!(
             all[0].to_string(),
-            "the lowest frequency of the tone is not used: it is 2.0 % higher than its multiples say, so it may be \
+            "the lowest frequency of the tone is not used: it is 2.0 % higher than its multiples show, so it may be \
             another sound"
         );
     }

@@ -237,8 +237,8 @@ fn why_rate_is_low(tone: &ToneConfig, half_rate_hz: f64) -> Option<String> {
     let are_speeds_known = tone.speed_max != ToneConfig::of_order(order).speed_max;
     Some(if are_speeds_known {
         format!(
-            "the sample rate is too low: no sound above {half_rate_khz:.1} kHz is recorded, and the tone of order {order} may be as high \
-            as {:.1} kHz; record at a higher sample rate, or follow a lower tone",
+            "the sample rate is too low: no sound above {half_rate_khz:.1} kHz is recorded, and the tone at {order} \
+            times the rotor speed may be as high as {:.1} kHz; record at a higher sample rate, or follow a lower tone",
             tone_hz / 1e3
         )
     } else {

@@ -103,7 +103,7 @@ fn a_bench_is_asked_for_a_band_and_for_no_mass_first() {
     let Some(bench) = recordings("crazyflie-propeller") else { return };
     let sound = bench.join("64000.wav");
     let said = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&sound)]).ends_with(3).stderr;
-    assert!(said.contains("on a bench, give the band of the blade pass with --band LOW:HIGH"), "{said}");
+    assert!(said.contains("on a bench, give the band around the tone of the blades with --band LOW:HIGH"), "{said}");
     let band = ["speed", "--blades", "2", "--rotors", "1", "--band", "780:840", text(&sound)];
     hovertone(&band).ends_with(0);
 }
