@@ -253,7 +253,10 @@ fn rows_that_were_computed_are_no_measurement() {
     };
     for digits in [17, 6, 4] {
         fs::write(&table, format!("rpm,thrust_n\n{}", rows(digits, ""))).unwrap();
-        refused_with(&["fit", text(&table)], &["exactly on F = C ω²", "these have none", "thrust_std_n", "stand.csv"]);
+        refused_with(
+            &["fit", text(&table)],
+            &["exactly on F = C ω²", "scatter of measured rows", "thrust_std_n", "stand.csv"],
+        );
     }
     // with a stated uncertainty they have one, and nothing is said not to fit
     fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{}", rows(17, ",0.001"))).unwrap();

@@ -59,7 +59,8 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     }
     if fit.estimate(Parameter::Load).is_none() {
         advice.push(Advice {
-            what: "the flight does not show the square term of the load (b in eq 2): the range of speeds is too small"
+            what: "the flight does not show the square term of the load (b in equation 2 of docs/greybox.md): the \
+            range of speeds is too small"
                 .to_owned(),
             hint: "fly climbs and descents with the largest command".to_owned(),
         });
