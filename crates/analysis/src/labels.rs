@@ -31,7 +31,7 @@ impl LabelSource {
             Self::MotorCommands => "the commands of the motors",
             Self::BodyRates => "the body's rates",
             Self::Microphones => "loudness and delay of the sound at the microphones",
-            Self::SpinUp => "the order in which the motors were started",
+            Self::SpinUp => "the sequence in which the motors were started",
         }
     }
 }

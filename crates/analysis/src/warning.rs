@@ -265,8 +265,8 @@ impl fmt::Display for Warning {
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not given, and the tone may come from one of several. So the ± is larger: it assumes that the \
-                speeds of the rotors differ by {:.1} % (standard deviation)",
+                "the number of rotors is not given, and the tone may come from one of several. So the ± is larger: \
+                hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
@@ -310,8 +310,8 @@ fn not_apart_text(resolved: usize, rotors: &str, has_mean: bool, spread_share: f
             format!("the {rotors} could not be separated: they are heard as a group, which has one mean speed")
         }
         (0, false) => format!(
-            "the {rotors} could not be separated, so one tone is used for all. It may be the tone of one rotor alone. The ± allows for this: \
-             it assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
+            "the {rotors} could not be separated, so one tone is used for all. It may be the tone of one rotor alone, \
+            so the ± is larger: hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
             100.0 * spread_share
         ),
         _ => format!("only {resolved} of the {rotors} could be separated"),

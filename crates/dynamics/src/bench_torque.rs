@@ -72,7 +72,8 @@ impl BenchTorque {
                 Some("all commands of this log hold the same speed; hold different speeds for a second each".to_owned())
             }
             Self::SteadyTorque => Some(
-                "the torque does not change at all while a speed is held, so its uncertainty is not known; log the torque as it is measured"
+                "the torque does not change at all while a speed is held, so its uncertainty is not known; log each \
+                measured value of the torque, not a mean"
                     .to_owned(),
             ),
         }

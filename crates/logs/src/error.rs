@@ -182,7 +182,9 @@ impl LogError {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"
             }
             Self::Twice { .. } => "remove one of the columns",
-            Self::NotInOrder { .. } => "sort the log by its time, and give the log of one flight",
+            Self::NotInOrder { .. } => {
+                "sort the rows by their time; if the log has several flights, give the log of one"
+            }
             Self::LongRow { .. } => {
                 "correct or remove the row; if the decimal sign is a comma, separate the cells by semicolons: 3,5 is \
                 read as two cells"
@@ -195,7 +197,7 @@ impl LogError {
             Self::NoSuchSignal { .. } => {
                 "`hovertone log FILE --signals` lists all signals; copy a name from there, with its table"
             }
-            Self::SeveralTables { .. } => "write the signals of each table into a file of their own",
+            Self::SeveralTables { .. } => "give the signals of one table; run the command again for the other table",
         }
     }
 }

@@ -182,8 +182,7 @@ fn why_not_opened(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
         io::ErrorKind::PermissionDenied => {
-            "you have no right to read it, or to open its folder; ask its owner for the right to read it, or copy it to a folder of your \
-            own"
+            "you have no right to read it, or to open its folder; ask the owner for the right to read it, or for a copy"
                 .to_owned()
         }
         _ => format!("{error}; check the file and its disk"),

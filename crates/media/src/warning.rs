@@ -99,7 +99,7 @@ impl MediaWarning {
                 "you need to do nothing, nothing was lost: the recorder probably stopped without closing the file, or \
                 wrote to a pipe"
             }
-            Self::CorruptPackets { .. } => "leave the damaged part out, or copy the file again",
+            Self::CorruptPackets { .. } => "copy the file again, or choose a part without damage with --from and --to",
             Self::NonFiniteSamples { .. } => {
                 "check the program that wrote the file; the hover needs a part without such errors"
             }

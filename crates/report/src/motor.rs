@@ -96,7 +96,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     }
     if other_count > 0 {
         text += &format!(
-            "left out: {} of the speed that no first-order curve (an exponential approach) fits\n",
+            "left out: {} of the speed without an exponential approach to a new speed\n",
             counted(other_count, "change")
         );
     }
@@ -256,7 +256,8 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         largest of these commands\n";
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "no command is held, so the gain comes from all log rows; the motor follows late, so this gain is too small\n";
+        text += "no command is held for long, so the gain comes from all log rows. The motor follows each command \
+        late, so this gain is too small\n";
     }
     if maps().any(|map| !map.points.is_empty()) {
         text += &format!("\n{}", table_text(&plateaus_table(record), width));

@@ -126,11 +126,13 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
         _ if found.is_right() => None,
         Some(ratio) => Some(Notice::new(
             format!("the heard speeds are {} times the logged speeds", significant(ratio, 3)),
-            "check the number of blades or the order of the tone; check the number of pole pairs in the ESC's settings; check that the log is of this flight",
+            "check the number of blades or the gear (the order of the tone); check the number of pole pairs in the \
+            ESC's settings; check that the log is of this flight",
         )),
         None => Some(Notice::new(
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
-            "check the order of the tone and the clock of the recorder, and that the log is of this flight",
+            "check the number of blades or the gear (the order of the tone) and the clock of the recorder; check that \
+            the log is of this flight",
         )),
     }
 }

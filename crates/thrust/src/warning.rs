@@ -222,7 +222,7 @@ impl ThrustWarning {
                 "do not use this constant: check masses, units and tone of both loads, and which recording belongs to which load"
             }
             Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
-                "check that each recording is under the right [[load]]; if so, hear it alone with `hovertone speed`"
+                "check that each recording is under the right [[load]]; if so, check it alone with `hovertone speed`"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
                 "do not use this constant: check the decimal point and the unit of the mass, and the name of the vehicle"
@@ -238,7 +238,7 @@ impl ThrustWarning {
                 "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another propeller"
             }
             Self::TrialLeftOut { .. } => {
-                "hear this recording alone with `hovertone speed`: the tone may come from another harmonic or another \
+                "check this recording with `hovertone speed`: the tone may come from another harmonic or another \
                 machine"
             }
             Self::LoadDoesNotFit { is_left_out: true, .. } => {

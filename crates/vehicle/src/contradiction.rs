@@ -164,7 +164,7 @@ impl Contradiction {
             }
             Self::Rotors { .. } => "leave out one of the two: in a hover, all rotors of the vehicle turn".to_owned(),
             Self::HeavyWithoutDiameter(mass_kg) => format!(
-                "masses are in kilograms: {mass_kg} g are {}; if the vehicle is this heavy, also give the diameter of its propellers",
+                "masses are in kilograms: for {mass_kg} g write {}; if the vehicle is this heavy, also give the diameter of its propellers",
                 mass_kg / 1e3
             ),
             Self::TooSmallToCarry { .. } | Self::TooLargeToCarry { .. } => {

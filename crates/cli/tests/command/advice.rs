@@ -70,7 +70,10 @@ fn tables_of_other_languages_are_told_what_to_change() {
     let table = folder.path().join("a.csv");
     let german = "Drehzahl (U/min);Schub (g)\n3000;112,5\n4000;201,3\n";
     fs::write(&table, german).unwrap();
-    refused_with(&["fit", text(&table)], &["no column holds a speed", "rename its header, as in speed_rpm"]);
+    refused_with(
+        &["fit", text(&table)],
+        &["no column holds a speed", "rename the header of the right column, as in speed_rpm"],
+    );
     refused_with(
         &["log", text(&table)],
         &["no header names the time", "rename the header of the time column", "--column"],

@@ -13,7 +13,7 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
     for (flags, vehicle, tone, words) in [
         (&["--blades", "3"][..], "blades = 3", "", ["blades = 3", "have 2 blades"]),
         (&["--gear", "8:68"], "gear = { pinion = 8, wheel = 68 }", "", ["gear = 8:68", "is 8:69"]),
-        (&["--order", "46"], "", "order = 46", ["order = 46", "tones of order 69"]),
+        (&["--order", "46"], "", "order = 46", ["order = 46", "is at 69 times"]),
         (&["--order", "4"], "", "order = 4", ["order = 4", "harmonics"]),
         (&["--band", "100:130"], "", "band_hz = [100.0, 130.0]", ["means 1.4 to 1.9 rev/s", "920 to 8280 Hz"]),
         (&["--rotors", "6"], "rotors = 6", "", ["rotors = 6", "has 4 rotors"]),
@@ -34,7 +34,10 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
 
 #[test]
 fn a_band_outside_of_all_rotors_is_refused_without_a_vehicle() {
-    refused_with(&["speed", "a.wav", "--gear", "8:69", "--band", "100:130"], &["order 69", "1.4 to 1.9 rev/s"]);
+    refused_with(
+        &["speed", "a.wav", "--gear", "8:69", "--band", "100:130"],
+        &["69 times the rotor speed", "1.4 to 1.9 rev/s"],
+    );
     refused_with(&["speed", "a.wav", "--mass-kg", "413"], &["mass_kg = 413", "413 g are 0.413"]);
     let plan = ["fit", "--plan", "--mass-kg", "413"];
     refused_with(&plan, &["mass_kg = 413", "413 g are 0.413"]);
@@ -102,7 +105,7 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     }
     let by_constant = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone"];
     refused_with(&[&by_constant[..], &["--rotors", "8"]].concat(), &["rotors = 8", "has 4 rotors"]);
-    refused_with(&[&by_constant[..], &["--order", "46"]].concat(), &["order = 46", "tones of order 69"]);
+    refused_with(&[&by_constant[..], &["--order", "46"]].concat(), &["order = 46", "is at 69 times"]);
 }
 
 /// What the vehicle has already changes no digit: speed, ± and budget.
@@ -195,7 +198,7 @@ fn a_speed_that_the_vehicle_of_a_constant_cannot_have_is_said() {
     let sound = folder.path().join("hover.wav");
     write_hover(&sound, steady_hover("crazyflie", RotorSpeed::from_rev_s(250.0), 5.0));
     let run = hovertone(&["weigh", text(&sound), "--constant", text(&results), "--blades", "2"]).ends_with(3);
-    for words in ["the rotors behind the constant turn at 13 to 120 rev/s", "leave --blades out"] {
+    for words in ["measured with rotors that turn at 13 to 120 rev/s", "leave --blades out"] {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
     assert!(run.stdout.contains("do not use this mass"), "{}", run.stdout);

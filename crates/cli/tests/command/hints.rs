@@ -22,7 +22,7 @@ fn a_recording_and_a_log_that_are_exchanged_are_said_to_be() {
     let sound = folder.path().join("a.wav");
     write_noise(&sound, 0.5);
     let log = written(folder.path(), "log.csv", "time_s,command_roll,roll_deg\n0,0,0\n1,0,0\n");
-    failed_with(&["greybox", &log, text(&sound), "--vehicle", "ardrone"], &["are exchanged", "the recording first"]);
+    failed_with(&["greybox", &log, text(&sound), "--vehicle", "ardrone"], &["are swapped", "the recording first"]);
 }
 
 #[test]
@@ -33,12 +33,12 @@ fn a_log_of_another_clock_is_answered_with_the_flag_for_it() {
     let row = |row: u32| format!("{}.{},{},0\n", 1000 + row / 10, row % 10, 0.3 * f64::from(row / 5 % 2));
     let rows = (0..60).map(row).collect::<String>();
     let log = written(folder.path(), "log.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &rows));
-    let words = ["does not follow this log", "--log-offset-s"];
+    let words = ["do not follow the commands of this log", "--log-offset-s"];
     failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
     // a log without doublets is not to blame
     let steady = (0..60).map(|row| format!("0.{row:02},0,0\n")).collect::<String>();
     let log = written(folder.path(), "steady.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &steady));
-    let words = ["no doublets were flown", "fly doublets for a minute"];
+    let words = ["no doublets were flown", "for a minute, in roll"];
     failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
 }
 

@@ -165,7 +165,7 @@ fn without_a_settled_speed_no_rotor_is_named() {
     for more in [["--log", text(&log)], ["--spin-up", "1,2,3,4"]] {
         let run = hovertone(&[&["speed", text(&sound), "--rotors", "4"], &more[..]].concat()).ends_with(3);
         assert!(run.stdout.contains("possible speeds, each with its plausibility:"), "{}", run.stdout);
-        let said = "warning: no rotor is named: the shaft speed is ambiguous (hint: ";
+        let said = "warning: no rotor gets a name, because several shaft speeds are possible (hint: ";
         assert_eq!(run.stderr.matches(said).count(), 1, "{}", run.stderr);
     }
 }

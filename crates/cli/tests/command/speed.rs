@@ -249,7 +249,7 @@ fn a_mesh_above_the_sample_rate_is_told_what_else_tells_the_speed() {
     write_noise(&noise, 4.0);
     let run = hovertone(&["speed", "--gear", "69", text(&noise)]).ends_with(3);
     for words in [
-        "the tone of order 69 (69 times per turn of the shaft) is not heard",
+        "the tone at 69 times the rotor speed is not heard",
         " rev/s; count the blades and give --blades N too",
         "--band LOW:HIGH",
     ] {

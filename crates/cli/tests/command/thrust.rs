@@ -165,7 +165,7 @@ fn a_plan_tells_before_flying() {
         hovertone(&arguments)
     };
     let words = plan("0.025", &["--latitude-deg", "-20.3", "--added-mass-kg", "0.1"]).ends_with(0).stdout;
-    for word in ["loads", "trials", "s of hover", "k = 2", "rotors not separated"] {
+    for word in ["loads", "recordings of each", "s of hover", "k = 2", "rotors not separated"] {
         assert!(words.contains(word), "{words}");
     }
     // the load that it names tests the law
@@ -174,7 +174,7 @@ fn a_plan_tells_before_flying() {
     assert!(heavier.contains("These loads also test"), "{words}\n{heavier}");
     let unreachable = plan("0.005", &["--added-mass-kg", "0.1"]).ends_with(2).stderr;
     for words in
-        ["rotors not separated", "from so near that `hovertone speed` separates the rotors (--rotors-separated)"]
+        ["rotors not separated", "so near the vehicle that `hovertone speed` separates the rotors (--rotors-separated)"]
     {
         assert!(unreachable.contains(words), "{unreachable}");
     }

@@ -53,7 +53,7 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     assert!(drawn.stdout.contains("passed: the order of the tone (blades or gear) and the clock are right"));
     assert!(fs::read_to_string(&figure).unwrap().contains("difference rotor-1"));
     let refused = |figure: &str, words: &[&str]| refused_with(&[&asked[..], &["--figure", figure]].concat(), words);
-    refused("check.gif", &["neither with .png nor with .svg"]);
+    refused("check.gif", &["must end with .png or .svg"]);
     refused(text(&figure), &["exists already"]);
     let wrong = hovertone(&["verify", text(&sound), text(&half), "--vehicle", vehicle]).ends_with(3);
     assert!(wrong.stdout.contains("failed: the heard speeds are 2.00 times the logged speeds"), "{}", wrong.stdout);
