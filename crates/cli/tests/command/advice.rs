@@ -56,10 +56,11 @@ fn a_folder_or_a_pattern_in_place_of_a_recording_is_told_what_it_holds() {
     let (first, pattern) = (folder.path().join("a.wav"), folder.path().join("*.wav"));
     for command in [&["listen", "--from-file"][..], &["spectrogram", "-o", "x.png"]] {
         let of_folder = hovertone(&[command, &[text(folder.path())]].concat()).ends_with(1).stderr;
-        let words = format!("this is a folder, not a recording; name a recording in it, such as {}", text(&first));
+        let words =
+            format!("this is a folder, not a recording; give a recording in the folder, such as {}", text(&first));
         assert!(of_folder.contains(&words), "{of_folder}");
         let of_pattern = hovertone(&[command, &[text(&pattern)]].concat()).ends_with(1).stderr;
-        let words = format!("one recording is heard at a time; name one, such as {}", text(&first));
+        let words = format!("this command hears one recording at a time; give one recording, such as {}", text(&first));
         assert!(of_pattern.contains(&words), "{of_pattern}");
     }
 }

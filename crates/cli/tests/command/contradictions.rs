@@ -151,7 +151,7 @@ fn a_vehicle_that_the_results_contradict_is_named_and_no_mass_that_nobody_gave()
     let results = out.join("results.json");
     let weigh = ["weigh", text(&sound), "--constant", text(&results)];
     let run = hovertone(&[&weigh[..], &["--vehicle", "ardrone"]].concat()).ends_with(2);
-    let says = "--vehicle ardrone contradicts the results: their vehicle, 0.03 kg, hovers at ";
+    let says = "--vehicle ardrone contradicts the results: the measured vehicle weighs 0.03 kg and hovers at ";
     assert!(run.stderr.contains(says) && run.stderr.contains("leave --vehicle out"), "{}", run.stderr);
     assert!(!run.stderr.contains("--mass-kg"), "{}", run.stderr);
     hovertone(&weigh).ends_with(0);

@@ -122,7 +122,7 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
         let run = hovertone(&["identify", &experiment(folder, &flown, recording)]).ends_with(code);
         words.iter().for_each(|words| assert!(run.stderr.contains(words), "{words}: {}", run.stderr));
     };
-    refused("{ file = \"flown/*.wav\", log = \"half.csv\" }", 2, &["a log is of one flight", "2 recordings"]);
+    refused("{ file = \"flown/*.wav\", log = \"half.csv\" }", 2, &["a log belongs to one flight", "2 recordings"]);
     refused(&with_log(&flown.sound, "nowhere.ulg"), 1, &["nowhere.ulg of load \"bare\""]);
     refused("{ file = \"a.wav\", lgo = \"half.csv\" }", 2, &["unknown key \"lgo\"", "did you mean \"log\""]);
     refused("{ file = \"a.wav\" }", 2, &["lacks \"log\""]);
