@@ -268,11 +268,7 @@ impl fmt::Display for NotTold {
                 )
             }
             Self::OffsetAtLimit { offset_s } => {
-                write!(
-                    f,
-                    "the log fits best at an offset between the clocks of {offset_s:.2} s, at the edge of the range \
-                    that was searched"
-                )
+                write!(f, "the log fits best at a clock offset of {offset_s:.2} s, at the edge of the searched range")
             }
             Self::NoStart => f.write_str(
                 "--spin-up changes nothing: the recording begins in the hover, so no motor is heard to start",
@@ -284,17 +280,12 @@ impl fmt::Display for NotTold {
                 write!(f, "{tracks} of the rotors cannot be followed from their start to the hover")
             }
             Self::OtherSpeedBefore { speed_rev_s } => {
-                write!(
-                    f,
-                    "before a rotor reaches the speed of the hover, it is heard at another speed, {speed_rev_s:.1} \
-                    rev/s"
-                )
+                write!(f, "before the hover, a rotor is heard at another speed, {speed_rev_s:.1} rev/s")
             }
             Self::RotorsTooClose { apart_rev_s } => {
                 write!(
                     f,
-                    "the speeds of two rotors differ by only {apart_rev_s:.2} rev/s: this is too little to hear which \
-                    of the two starts"
+                    "the speeds of two rotors differ by only {apart_rev_s:.2} rev/s, too little to hear which one starts"
                 )
             }
             Self::SpinUpTooLong { before_hover_s } => {
@@ -322,8 +313,7 @@ impl fmt::Display for NotTold {
             Self::OtherArray { probability } => {
                 write!(
                     f,
-                    "the sound at the microphones does not fit the given positions (probability that it fits: \
-                    {probability:.2})"
+                    "the sound does not fit the given microphone positions (probability that it fits: {probability:.2})"
                 )
             }
             Self::SeveralPlacesFit { tracks } => {

@@ -207,12 +207,7 @@ impl fmt::Display for Warning {
             Self::RidgeOnBandEdge { harmonic, frames_share, band_hz_low, band_hz_high } => {
                 f.write_str(&on_edge_text(*harmonic, *frames_share, [*band_hz_low, *band_hz_high]))
             }
-            Self::HarmonicLeftOut { harmonic: 1, reason } => {
-                write!(f, "the lowest frequency of the tone is not used: {reason}")
-            }
-            Self::HarmonicLeftOut { harmonic, reason } => {
-                write!(f, "harmonic {harmonic} of the tone (its frequency times {harmonic}) is not used: {reason}")
-            }
+            Self::HarmonicLeftOut { harmonic, reason } => f.write_str(&left_out_text(*harmonic, reason)),
             Self::BandCutByCodec { above_hz } => {
                 write!(
                     f,
@@ -283,6 +278,14 @@ impl fmt::Display for Warning {
                 )
             }
         }
+    }
+}
+
+/// A harmonic that is not used, with the reason.
+fn left_out_text(harmonic: u32, reason: &str) -> String {
+    match harmonic {
+        1 => format!("the lowest frequency of the tone is not used: {reason}"),
+        _ => format!("harmonic {harmonic} of the tone (its frequency times {harmonic}) is not used: {reason}"),
     }
 }
 

@@ -177,7 +177,7 @@ impl Contradiction {
                     .to_owned()
             }
             Self::Mass { known_kg, said_kg, .. } if GRAMS_FACTOR.contains(&(said_kg / known_kg)) => {
-                format!("masses are in kilograms: {said_kg} g are {}", said_kg / 1e3)
+                format!("masses are in kilograms: for {said_kg} g write {}", said_kg / 1e3)
             }
             Self::Mass { .. } => "check the mass (in kilograms) and the name of the vehicle".to_owned(),
             Self::GearSwapped(gear) => {

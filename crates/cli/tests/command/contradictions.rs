@@ -38,9 +38,9 @@ fn a_band_outside_of_all_rotors_is_refused_without_a_vehicle() {
         &["speed", "a.wav", "--gear", "8:69", "--band", "100:130"],
         &["69 times the rotor speed", "1.4 to 1.9 rev/s"],
     );
-    refused_with(&["speed", "a.wav", "--mass-kg", "413"], &["mass_kg = 413", "413 g are 0.413"]);
+    refused_with(&["speed", "a.wav", "--mass-kg", "413"], &["mass_kg = 413", "for 413 g write 0.413"]);
     let plan = ["fit", "--plan", "--mass-kg", "413"];
-    refused_with(&plan, &["mass_kg = 413", "413 g are 0.413"]);
+    refused_with(&plan, &["mass_kg = 413", "for 413 g write 0.413"]);
     refused_with(&[&plan[..], &["--diameter-m", "0.2"]].concat(), &["mass_kg = 413", "Mach"]);
     hovertone(&["fit", "--plan", "--mass-kg", "360", "--diameter-m", "1.6", "--rotors", "8", "--wanted-share", "0.2"])
         .ends_with(0);
@@ -87,10 +87,10 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     write_hover(&wav, steady_hover("ardrone", RotorSpeed::from_rev_s(58.7), 3.0));
     let weigh = ["weigh", text(&wav), "--constant", text(&results)];
     for (more, words) in [
-        (&["--rotors", "8"][..], ["with 4 rotors", "--rotors means 8", "leave --rotors out"]),
-        (&["--rotors", "2"], ["with 4 rotors", "--rotors means 2", "leave --rotors out"]),
-        (&["--order", "46"], ["tone of order 69", "mean 46", "leave --order"]),
-        (&["--blades", "3"], ["tone of order 69", "mean 3", "leave --order"]),
+        (&["--rotors", "8"][..], ["with 4 rotors", "--rotors says 8", "leave --rotors out"]),
+        (&["--rotors", "2"], ["with 4 rotors", "--rotors says 2", "leave --rotors out"]),
+        (&["--order", "46"], ["tone of order 69", "say 46", "leave --order"]),
+        (&["--blades", "3"], ["tone of order 69", "say 3", "leave --order"]),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }

@@ -141,5 +141,5 @@ fn what_cannot_be_heard_is_told_in_plain_words() {
     failed_with(&["speed", &table, "--blades", "2"], &["(it is text)"]);
     // no step, and no speed that is held: what to do
     let motor = hovertone(&["motor", text(&sound), "--from", "4", "--to", "5"]).ends_with(3).stdout;
-    assert!(!motor.contains("no speed is held") || motor.contains("choose a longer part"), "{motor}");
+    assert!(!motor.contains("no speed stays the same") || motor.contains("choose a longer part"), "{motor}");
 }

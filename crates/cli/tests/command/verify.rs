@@ -111,7 +111,7 @@ fn nothing_to_compare_ends_with_a_sentence() {
     let log = folder.path().join("log.csv");
     fs::write(&log, "time_s,rotor1_rpm\n0,4000\n1,4100\n2,4200\n").unwrap();
     let run = hovertone(&["verify", text(&noise), text(&log), "--blades", "2"]).ends_with(3);
-    for words in ["no rotor tone: nothing sounds like a rotor", "nothing is compared"] {
+    for words in ["no rotor tone: nothing sounds like a rotor", "nothing was compared"] {
         assert_eq!(run.stderr.matches(words).count(), 1, "{words}:\n{}", run.stderr);
     }
     let run = hovertone(&["verify", "nowhere.wav", text(&log), "--blades", "2"]).ends_with(1);
