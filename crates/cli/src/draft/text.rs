@@ -166,7 +166,7 @@ mod tests {
             let file: ExperimentFile = toml::from_str(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
             let experiment = file.resolve(None).unwrap();
             assert_eq!(experiment.rotor_count, rotors);
-            assert!(experiment.is_weighed && text.contains("half and double the speed"), "{text}");
+            assert!(experiment.is_weighed && text.contains("half and double the true speed"), "{text}");
             let names: Vec<&str> = experiment.loads.iter().map(|load| load.name.as_str()).collect();
             assert_eq!(names, ["small", "no \"hull\" [1]", "x"]);
             for (resolved, typed) in experiment.loads.iter().zip(&loads) {

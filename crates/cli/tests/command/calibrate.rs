@@ -79,9 +79,10 @@ fn an_order_whose_tone_is_hardly_heard_does_not_pass() {
     };
     // two blades without a gear; the blades of the vehicle give the right speed, and the mesh of its gear is not there
     let geared = with(&["--vehicle", "ardrone"]).ends_with(3);
-    for words in
-        ["not decided: the tone of order 69 is not heard for ", "give --blades 2 alone, in place of the vehicle"]
-    {
+    for words in [
+        "not decided: the tone of order 69 (lines per turn) is missing for ",
+        "give --blades 2 alone, in place of the vehicle",
+    ] {
         assert!(geared.stderr.contains(words), "{words}:\n{}", geared.stderr);
     }
     assert!(!geared.stdout.contains("pass"), "{}", geared.stdout);
@@ -256,7 +257,7 @@ fn a_wide_uncertainty_decides_nothing() {
 fn several_rotors_are_refused_and_one_is_not_assumed_in_silence() {
     refused_with(
         &["calibrate", "a.wav", "--vehicle", "ardrone", "--tachometer-rpm", "3600", "--rotors", "4"],
-        &["4 rotors turn", "one rotor that runs alone, and give --rotors 1"],
+        &["--rotors 4: each rotor has its own speed", "one rotor that runs alone, and give --rotors 1"],
     );
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
