@@ -29,7 +29,8 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     let separated = match plan.largest {
         BudgetInput::LoudestRotor => {
-            "\nThis assumes that the rotors cannot be separated. If `hovertone speed` separates yours, add --rotors-separated."
+            "\nThis assumes that the rotors cannot be separated. If `hovertone speed` separates your rotors, add \
+            --rotors-separated."
         }
         _ => "",
     };
