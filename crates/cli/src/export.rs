@@ -120,8 +120,7 @@ fn change(
     if is_stdin(model) && arguments.output.is_none() {
         return Err(Failure::usage(
             "--into cannot change stdin, because stdin is not a file",
-            "write the changed model \
-                                                                                              to a file with -o FILE",
+            "write the changed model to a file with -o FILE",
         ));
     }
     let text = read_text(model, "the model")?;

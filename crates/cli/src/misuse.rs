@@ -167,7 +167,7 @@ impl Misuse {
                 let hint = if is_new_file {
                     format!("to name the new file, write -o {name}")
                 } else {
-                    format!("write the mass before the recording, as in --mass 413g {name}")
+                    format!("write --mass 413g {name}, with your mass")
                 };
                 return Self { what, hint: Some(hint) };
             }
@@ -336,7 +336,7 @@ mod tests {
             ),
             (
                 "hovertone init src/lib.rs",
-                "\"src/lib.rs\": init needs a mass before each recording (as in --mass 413g src/lib.rs)",
+                "\"src/lib.rs\": init needs a mass before each recording (write --mass 413g src/lib.rs, with your mass)",
             ),
             (
                 "hovertone listen hover.mp4",

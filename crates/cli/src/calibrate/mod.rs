@@ -292,8 +292,7 @@ fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
             format!("--harmonics {count} changes nothing: --true-hz compares only one tone, the tone of a generator");
         return Err(Failure::usage(
             what,
-            "leave --harmonics out; if a rotor makes the tone, describe the rotor, for \
-                                         example with --blades 2",
+            "leave --harmonics out; if a rotor makes the tone, describe the rotor, for example with --blades 2",
         ));
     }
     // the clock is what is sought, and a bench does not move

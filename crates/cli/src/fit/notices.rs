@@ -33,8 +33,7 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
 pub(super) fn hint_of_note(note: &str) -> &'static str {
     match note {
         note if note.contains("its name has no unit") => {
-            "if hovertone should use this column, write the unit into \
-                                                          its name, as in thrust_g"
+            "if hovertone should use this column, write the unit into its name, as in thrust_g"
         }
         note if note.starts_with("column ") => "if hovertone should use this column, remove the other column",
         _ => "",

@@ -120,11 +120,11 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
             match experiment.config.known.shaft_speed {
                 Some(_) => {
                     "the diameter of the propellers is not given: the thrust coefficient C_T needs it and is \
-                            left out; the thrust constant C_f does not need it"
+                     left out; the thrust constant C_f does not need it"
                 }
                 None => {
                     "the diameter of the propellers is not given: with the diameter, hovertone can rule out half \
-                         and double the true speed; C_T needs it too"
+                     and double the true speed; C_T needs it too"
                 }
             },
             "write propeller_diameter_m under [vehicle]; without an experiment file, give --diameter-m",

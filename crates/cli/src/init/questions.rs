@@ -79,7 +79,7 @@ fn ask_loads<R: BufRead, W: Write>(
     if !found.is_empty() {
         dialog.say(
             "\nFor each line, give the mass in flight, with battery and load, in kg (0.413) or g (413g). Press \
-                  Enter to leave the recordings out.",
+             Enter to leave the recordings out.",
         );
     }
     for Offer { name, words } in found {

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 use cpal::{Device, FromSample, Sample, SampleFormat, SizedSample, Stream, SupportedStreamConfig};
+use hovertone_report::counted;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::Duration;
 
@@ -32,11 +33,13 @@ impl Microphone {
         let config = device.default_input_config().map_err(|error| failed(&error))?;
         let count = usize::from(config.channels());
         if let Some(asked) = channel.filter(|asked| !(1..=count).contains(asked)) {
-            let what =
-                format!("channel {asked} does not exist: the channels of the microphone have the numbers 1 to {count}");
+            let what = format!(
+                "channel {asked} does not exist: the microphone has {}, numbered from 1",
+                counted(count, "channel")
+            );
             return Err(Failure::usage(
                 what,
-                "give one of these numbers, or leave --channel out to hear the mean of all channels",
+                "give another number, or leave --channel out to hear the mean of all channels",
             ));
         }
         let (sender, blocks) = sync_channel(BLOCKS_WAITING);

@@ -119,10 +119,8 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     let slip =
         hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "350"]).ends_with(3);
     assert!(
-        slip.stdout.contains(
-            "Does the rotor turn 350 times per second, not per minute? Then give \
-                                  --tachometer-rpm 21000"
-        ),
+        slip.stdout
+            .contains("Does the rotor turn 350 times per second, not per minute? Then give --tachometer-rpm 21000"),
         "{}",
         slip.stdout
     );
