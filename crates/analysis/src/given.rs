@@ -79,7 +79,7 @@ impl GivenFacts {
         let hint = |warning: &&Warning| match warning {
             Warning::FitsElsewhere(_) => format!("check {}", self.in_words("and")),
             warning if self.window && is_about_ridge(warning) => {
-                "leave --window-s out: hovertone then chooses a window that fits the tone".to_owned()
+                "leave --window-s out: hovertone then chooses a length that fits the tone".to_owned()
             }
             warning if is_band_wrong && is_about_ridge(warning) => "leave --band out, or give a wider one".to_owned(),
             Warning::FewHarmonicsAgree { .. } if self.band => {

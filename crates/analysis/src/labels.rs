@@ -31,7 +31,7 @@ impl LabelSource {
             Self::MotorCommands => "the commands of the motors",
             Self::BodyRates => "the body's rates",
             Self::Microphones => "loudness and delay of the sound at the microphones",
-            Self::SpinUp => "the order in which the motors were started",
+            Self::SpinUp => "the sequence in which the motors were started",
         }
     }
 }
@@ -187,36 +187,47 @@ impl NotTold {
             Self::TooFewTracks { .. } => {
                 "to separate more rotors, place the microphone nearer and record without compression"
             }
-            Self::TooManyOffsets { .. } => "give narrower limits in seconds: --log-offset-s LOW:HIGH",
+            Self::TooManyOffsets { .. } => "give narrower limits for the offset, in seconds: --log-offset-s LOW:HIGH",
             Self::NoOverlap => {
-                "give the log of the same flight; if it is the right log, give limits that contain the offset of its clock: --log-offset-s LOW:HIGH"
+                "give the log of the same flight; if it is the right log, give other limits for the time to add to \
+                its clock, in seconds: --log-offset-s LOW:HIGH"
             }
             Self::NothingInCommon { .. } => {
                 "check that the log is of the same flight; check the limits of --log-offset-s and the direction of the axes (--log-axes)"
             }
-            Self::OffsetAtLimit { .. } => "give wider limits in seconds: --log-offset-s LOW:HIGH",
+            Self::OffsetAtLimit { .. } => "give wider limits for the offset, in seconds: --log-offset-s LOW:HIGH",
             Self::NoStart => {
-                "for --spin-up, start the recording first; then start the motors one after the other, a second or more apart; for this \
-                 recording, leave --spin-up out, or give a log of the flight with --log"
+                "leave --spin-up out, or give a log of the flight with --log in its place; next time, start the \
+                recording first, then one motor after the other, a second or more apart"
             }
-            Self::StartedTogether { .. } => "start one motor after the other, a second or more apart",
+            Self::StartedTogether { .. } => "record again, and start one motor after the other, a second or more apart",
             Self::NotFollowed { .. } => {
-                "start the recording first; then bring one motor after the other straight to the speed of the hover, a second apart"
+                "record again: start the recording first; then bring one motor after the other straight to the speed \
+                of the hover, a second apart"
             }
-            Self::OtherSpeedBefore { .. } => "bring each motor straight to the speed of the hover, without idling",
+            Self::OtherSpeedBefore { .. } => {
+                "record again, and bring each motor straight to the speed of the hover, without idling"
+            }
             Self::RotorsTooClose { .. } => "give a log of the flight with --log",
-            Self::SpinUpTooLong { .. } => "with --from, begin shortly before the motors start",
+            Self::SpinUpTooLong { .. } => "choose a part that begins shortly before the motors start: --from SECONDS",
             Self::SeveralFit { .. } => {
-                "record a longer hover with small rolls and pitches: they make the speeds of the rotors differ"
+                "record a longer hover, and rock the vehicle gently left-right and forward-back: this makes the \
+                speeds of the rotors differ"
             }
             Self::SeveralFitRates { .. } => {
-                "record longer, and rock the vehicle gently left-right and forward-back: each movement shows where the rotors are that make it"
+                "record longer, and rock the vehicle gently left-right and forward-back: the movements show where \
+                each rotor is"
             }
             Self::OtherChannels { .. } => {
-                "give the position of each channel's microphone, in the order of the channels"
+                "in the file of --microphones, write one [[microphone]] for each channel, in the sequence of the \
+                channels"
             }
-            Self::OtherPlaces { .. } => "give the place of each rotor",
-            Self::NothingHeard { .. } => "check that this channel is not silent, or record a longer hover",
+            Self::OtherPlaces { .. } => {
+                "in the file of --microphones, write one [[rotor]] for each rotor, with its name and position_m"
+            }
+            Self::NothingHeard { .. } => {
+                "check that the channel of this microphone is not silent, or record a longer hover"
+            }
             Self::OtherArray { .. } => {
                 "check the positions of the microphones, their sequence, and the axes (x forward, y left, z up); if all are right, give a \
                 larger position_std_m, which is the uncertainty of the positions"
@@ -239,27 +250,28 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors are too many to name: the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{} separated, but {needed} are needed", rotors_are(*tracks))
+                write!(f, "{} separated in the sound, but {needed} are needed to name them", rotors_are(*tracks))
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(
                     f,
-                    "the clocks of log and recording may differ by anything from {low_s:.0} to {high_s:.0} s: this range is too wide to \
-                try all of it"
+                    "the offset between the clocks of log and recording may be anything from {low_s:.0} to \
+                    {high_s:.0} s: this range is too wide to search"
                 )
             }
-            Self::NoOverlap => f.write_str("the log and the hover share too little time"),
+            Self::NoOverlap => f.write_str("the log covers too little time of the hover"),
             Self::NothingInCommon { probability } => {
                 write!(
                     f,
-                    "the log does not fit the speeds of the rotors (probability that it belongs to them: {probability:.2})"
+                    "the log does not fit the speeds of the rotors (probability that it is of this flight: \
+                    {probability:.2})"
                 )
             }
             Self::OffsetAtLimit { offset_s } => {
-                write!(f, "the log fits best at an offset of {offset_s:.2} s, the edge of the offsets that were tried")
+                write!(f, "the log fits best at a clock offset of {offset_s:.2} s, at the edge of the searched range")
             }
             Self::NoStart => f.write_str(
-                "--spin-up changes nothing: the hover begins with the recording, and no motor is heard to start",
+                "--spin-up changes nothing: the recording begins in the hover, so no motor is heard to start",
             ),
             Self::StartedTogether { apart_s } => {
                 write!(f, "two rotors start within {:.1} s of each other", apart_s.max(0.1))
@@ -268,12 +280,12 @@ impl fmt::Display for NotTold {
                 write!(f, "{tracks} of the rotors cannot be followed from their start to the hover")
             }
             Self::OtherSpeedBefore { speed_rev_s } => {
-                write!(f, "before a rotor reaches the speed of the hover, something turns at {speed_rev_s:.1} rev/s")
+                write!(f, "before the hover, a rotor is heard at another speed, {speed_rev_s:.1} rev/s")
             }
             Self::RotorsTooClose { apart_rev_s } => {
                 write!(
                     f,
-                    "two rotors differ by only {apart_rev_s:.2} rev/s: this is too little to hear which of them starts"
+                    "the speeds of two rotors differ by only {apart_rev_s:.2} rev/s, too little to hear which one starts"
                 )
             }
             Self::SpinUpTooLong { before_hover_s } => {
@@ -293,7 +305,7 @@ impl fmt::Display for NotTold {
                 )
             }
             Self::OtherPlaces { tracks, places } => {
-                write!(f, "{tracks} rotors were separated, but {places} have a position: both numbers must be equal")
+                write!(f, "{tracks} rotors were separated in the sound, but only {places} rotors have a place")
             }
             Self::NothingHeard { microphone } => {
                 write!(f, "microphone {microphone} does not hear the rotors for long enough")
@@ -301,7 +313,7 @@ impl fmt::Display for NotTold {
             Self::OtherArray { probability } => {
                 write!(
                     f,
-                    "the sound at the microphones does not fit the given positions (probability {probability:.2})"
+                    "the sound does not fit the given microphone positions (probability that it fits: {probability:.2})"
                 )
             }
             Self::SeveralPlacesFit { tracks } => {

@@ -67,15 +67,18 @@ impl NoTone {
                 let may_turn = format!("with {blades} blades may turn at {speed_rev_s:.1} rev/s");
                 let not_heard = match only_rev_s {
                     Some((low, high)) if (*low..=*high).contains(speed_rev_s) => {
-                        return format!("the given tone is not heard, but a rotor {may_turn}; {in_place}");
+                        return format!(
+                            "the tone that the given facts describe is not heard, but a rotor {may_turn}; {in_place}"
+                        );
                     }
-                    Some((low, high)) => format!(
-                        "no such rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it"
-                    ),
-                    None => "no such rotor is heard".to_owned(),
+                    Some((low, high)) => {
+                        format!("no rotor that fits the given facts is heard at {low:.0} to {high:.0} rev/s")
+                    }
+                    None => "no rotor that fits the given facts is heard".to_owned(),
                 };
                 format!(
-                    "{not_heard}. But one {may_turn}: if the rotor has {blades} blades, {in_place}; if not, check {}",
+                    "{not_heard}. But a rotor {may_turn}: if your rotor has {blades} blades, {in_place}; if not, \
+                    check {}",
                     given.in_words("and")
                 )
             }
@@ -123,13 +126,14 @@ impl fmt::Display for NoTone {
             ),
             Self::NotHeld { tone_hz, held_s } => write!(
                 f,
-                "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most; if a rotor is among them, choose its \
-                part with --from and --to"
+                "tones come and go: the tone near {tone_hz:.0} Hz is held for {held_s:.1} s at most; if one of these \
+                tones is from a rotor, choose the part with this tone: --from and --to"
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,
-                "the tone should be near {tone_hz:.0} Hz, but the recording has no sound above {above_hz:.0} Hz: the recorder or its \
-                compression removed it; record without compression, or follow a lower tone: give --blades N alone for the blade pass"
+                "the tone should be near {tone_hz:.0} Hz, but the recording has no sound above {above_hz:.0} Hz: the \
+                recorder or its compression removed it; record without compression, or follow the lower tone of the \
+                blades: give --blades N alone"
             ),
         }
     }
@@ -161,11 +165,13 @@ mod tests {
         let other = said(Some((200.0, 400.0)));
         assert!(
             other.starts_with(
-                "no such rotor is heard at 200 to 400 rev/s, where the given facts expect it. But one with 2 blades"
+                "no rotor that fits the given facts is heard at 200 to 400 rev/s. But a rotor with 2 blades"
             ),
             "{other}"
         );
-        assert!(said(None).starts_with("no such rotor is heard. But one with 2 blades may turn at 60.2 rev/s"));
+        assert!(said(None).starts_with(
+            "no rotor that fits the given facts is heard. But a rotor with 2 blades may turn at 60.2 rev/s"
+        ));
         assert!(
             other.contains("give --blades 2 alone, in place of the vehicle and the band; if not, check the"),
             "{other}"

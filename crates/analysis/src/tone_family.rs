@@ -66,7 +66,7 @@ impl Remark {
             Self::NearMains => "mains hum (?)",
             Self::Brief => "short tone (a beep or a call?)",
             Self::SingleLine => "single line",
-            Self::GearMesh => "gear mesh of the rotors",
+            Self::GearMesh => "tone of the rotors' gear",
         }
     }
 }

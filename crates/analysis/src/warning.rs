@@ -164,7 +164,9 @@ impl Warning {
             Self::OtherSteadySpeed { .. } | Self::HoversDiffer { .. } => {
                 "choose the part you mean with --from and --to"
             }
-            Self::HoverShorterThanSample { .. } => "record a longer hover, or write a smaller length_s under [samples]",
+            Self::HoverShorterThanSample { .. } => {
+                "record a longer hover, or write a smaller length_s under [samples] in the experiment file"
+            }
             _ if self.is_hardly_heard() => {
                 "do not use this speed yet; first check the vehicle and its blades; if they are right, move the microphone nearer, or choose \
                  the clear part with --from and --to"
@@ -205,10 +207,7 @@ impl fmt::Display for Warning {
             Self::RidgeOnBandEdge { harmonic, frames_share, band_hz_low, band_hz_high } => {
                 f.write_str(&on_edge_text(*harmonic, *frames_share, [*band_hz_low, *band_hz_high]))
             }
-            Self::HarmonicLeftOut { harmonic: 1, reason } => {
-                write!(f, "the lowest line of the tone is not used: {reason}")
-            }
-            Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is not used: {reason}"),
+            Self::HarmonicLeftOut { harmonic, reason } => f.write_str(&left_out_text(*harmonic, reason)),
             Self::BandCutByCodec { above_hz } => {
                 write!(
                     f,
@@ -221,7 +220,7 @@ impl fmt::Display for Warning {
                     let show = if *used == 1 { "shows" } else { "show" };
                     write!(f, "only {used} of {of} harmonics (multiples of the tone) {show} the same speed")
                 } else {
-                    f.write_str("the lowest line of the tone shows another speed than its multiples")
+                    f.write_str("the lowest frequency of the tone shows another speed than its multiples")
                 }
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
@@ -237,7 +236,8 @@ impl fmt::Display for Warning {
             Self::HoverShorterThanSample { hover_s, length_s } => {
                 write!(
                     f,
-                    "the hover ({hover_s:.1} s) is shorter than one sample ({length_s:.1} s), and is used as one sample"
+                    "the hover ({hover_s:.1} s) is shorter than one sample (a part of {length_s:.1} s), so the whole \
+                    hover is used as one sample"
                 )
             }
             Self::ManyGaps { gap_share } => {
@@ -260,15 +260,15 @@ impl fmt::Display for Warning {
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not given, and the tone may come from one of several. So the ± is larger: it assumes that the \
-                speeds of the rotors differ by {:.1} % (standard deviation)",
+                "the number of rotors is not given, and the tone may come from one of several. So the ± is larger: \
+                hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
-                "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is more than 99 times as \
-                probable"
+                "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is \
+                more than 99 times as probable as the given rotor"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(
@@ -278,6 +278,14 @@ impl fmt::Display for Warning {
                 )
             }
         }
+    }
+}
+
+/// A harmonic that is not used, with the reason.
+fn left_out_text(harmonic: u32, reason: &str) -> String {
+    match harmonic {
+        1 => format!("the lowest frequency of the tone is not used: {reason}"),
+        _ => format!("harmonic {harmonic} of the tone (its frequency times {harmonic}) is not used: {reason}"),
     }
 }
 
@@ -305,8 +313,8 @@ fn not_apart_text(resolved: usize, rotors: &str, has_mean: bool, spread_share: f
             format!("the {rotors} could not be separated: they are heard as a group, which has one mean speed")
         }
         (0, false) => format!(
-            "the {rotors} could not be separated, so one tone is used for all. It may be the tone of one rotor alone. The ± allows for this: \
-             it assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
+            "the {rotors} could not be separated, so one tone is used for all. It may be the tone of one rotor alone, \
+            so the ± is larger: hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
             100.0 * spread_share
         ),
         _ => format!("only {resolved} of the {rotors} could be separated"),
@@ -330,7 +338,7 @@ mod tests {
             let (band_hz_low, band_hz_high) = (140.4 * times, 165.0 * times);
             Warning::RidgeOnBandEdge { harmonic, frames_share: 0.67, band_hz_low, band_hz_high }
         };
-        let reason = "it is 2.0 % higher than its multiples say, so it may be another sound".to_owned();
+        let reason = "it is 2.0 % higher than its multiples show, so it may be another sound".to_owned();
         let all = [
             Warning::HarmonicLeftOut { harmonic: 1, reason },
             edge(1),
@@ -346,7 +354,8 @@ mod tests {
         assert_eq!(edge(1).to_string(), expected);
         assert_eq!(
             all[0].to_string(),
-            "the lowest line of the tone is not used: it is 2.0 % higher than its multiples say, so it may be another sound"
+            "the lowest frequency of the tone is not used: it is 2.0 % higher than its multiples show, so it may be \
+            another sound"
         );
     }
 

@@ -11,7 +11,7 @@ pub enum ArchiveError {
     #[error(transparent)]
     Parquet(#[from] parquet::errors::ParquetError),
     /// A table without a column that it must have.
-    #[error("the column {name} is missing, or has another type")]
+    #[error("the table has no column {name}, or the column has another type than hovertone writes")]
     MissingColumn {
         /// Name of the column.
         name: &'static str,

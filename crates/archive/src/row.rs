@@ -30,7 +30,7 @@ pub(crate) fn recordings_batch(rows: &[ArchiveRow]) -> Result<RecordBatch, Arrow
 fn answer_columns(columns: Columns<'_, ArchiveRow>) -> Columns<'_, ArchiveRow> {
     let error = |row: &ArchiveRow| row.error_class.filter(|_| row.record.has_failed()).map(str::to_owned);
     columns
-        .text(plain("file", "name of the recording, as found"), |row| &row.record.file)
+        .text(plain("file", "name of the recording's file, as it was found"), |row| &row.record.file)
         .text(plain("status", "ok, ambiguous, no_rotor_tone or error"), |row| row.record.status())
         .text_or_none(plain("error_class", "kind of the error, where it could not be heard"), error)
         .text_or_none(plain("reason", "why there is no speed"), |row| row.record.reason())

@@ -51,7 +51,8 @@ impl FromStr for Shard {
                 Err(format!("{jobs}, so write 1/{count}{last}"))
             }
             _ => Err(format!(
-                "must be the number of a job and how many there are, as 1/8 to 8/8, of at most {COUNT_MAX}"
+                "write the number of this job and the number of all jobs, such as 1/8 for the first of eight jobs; at \
+                most {COUNT_MAX} jobs"
             )),
         }
     }

@@ -18,15 +18,17 @@ struct TrackRow<'a> {
 pub(crate) fn tracks_batch(record: Option<&SpeedRecord>) -> Result<RecordBatch, ArrowError> {
     let rows = record.map(rows_of).unwrap_or_default();
     Columns::of(&rows)
-        .text(plain("file", "name of the recording, as found"), |row| row.file)
-        .whole(head("rotor", NO_UNIT, "number of the rotor, fastest first; 0 for all together"), |row| Some(row.rotor))
+        .text(plain("file", "name of the recording's file, as it was found"), |row| row.file)
+        .whole(head("rotor", NO_UNIT, "number of the rotor: 1 is the fastest, 0 means all rotors together"), |row| {
+            Some(row.rotor)
+        })
         .number(head("time_s", "s", "middle of the frame"), |row| Some(row.point.time_s))
         .number(head("tone_hz", "Hz", "frequency of the tone"), |row| Some(row.point.tone_hz))
         .number(head("speed_rev_s", "rev/s", "shaft speed"), |row| Some(row.point.speed_rev_s))
         .number(head("std_uncertainty_rev_s", "rev/s", "standard uncertainty of the speed"), |row| {
             Some(row.point.std_uncertainty_rev_s)
         })
-        .number(head("level_db", "dB", "level of the strongest harmonic, re a full-scale sine"), |row| {
+        .number(head("level_db", "dB", "level of the strongest harmonic, relative to a full-scale sine"), |row| {
             Some(row.point.level_db)
         })
         .batch()

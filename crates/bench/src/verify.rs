@@ -72,7 +72,8 @@ pub(crate) fn run(options: &[&str]) -> Result<(), String> {
     let separated = heard.iter().filter(|flight| flight.rotor_count > 1).count();
     println!("{count} flights, {} with a rotor tone, {separated} of them with separated rotors\n", heard.len());
     println!(
-        "| rotors | log | compared | order check right | not decided | offset within 50 ms | names right | bias, median | within ± |"
+        "| rotors | log | compared | speed check right | not decided | offset within 50 ms | names right | bias, \
+        median | within ± |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     for (rotors, is_separated) in [("separated", true), ("one tone", false)] {

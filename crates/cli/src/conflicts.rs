@@ -7,21 +7,25 @@ use std::path::Path;
 /// The place of an experiment file among the words of a command.
 const EXPERIMENT: &str = "EXPERIMENT.toml";
 
-const NAMED_TWICE: &str = "each names the rotors by itself: leave one of them out";
-const WITHOUT_AIR: &str = "a plan does not use the air: leave it out; give it when you fit the tables";
-const PRINTED: &str = "--json prints the answer as JSON, and nothing else: leave one of them out";
+const NAMED_TWICE: &str = "each of the two flags alone tells which rotor is which: leave one of them out";
+const WITHOUT_AIR: &str = "--plan does not use the density of the air: leave the flags of the air out, and give them \
+                           later, when you fit the table";
+const PRINTED: &str = "--json prints the answer as JSON and nothing else: leave one of the two out";
 /// Two arguments, and why only one of them has a meaning.
 const KNOWN: [([&str; 2], &str); 18] = [
     (["--gravity-m-s2", "--latitude-deg"], "both give the local gravity: leave one of them out"),
     (["--constant", "--constant-n-s2"], "both give the thrust constant: leave one of them out"),
     (
         ["--constant", "--constant-std-n-s2"],
-        "the results of --constant have an uncertainty already: leave --constant-std-n-s2 out",
+        "the file of --constant already has an uncertainty: leave --constant-std-n-s2 out",
     ),
     (["--tachometer-rpm", "--true-hz"], "both give the known speed: leave one of them out"),
-    (["--to", "--into"], "--to writes a new model, --into changes one that you have: leave one of them out"),
+    (["--to", "--into"], "--to writes a new model, --into changes a model that you have: leave one of them out"),
     (["--mean-only", "--method"], "both say how the speed is read from the sound: leave one of them out"),
-    (["--plan", "TABLE.csv"], "a plan is made before there are tables: leave one of them out"),
+    (
+        ["--plan", "TABLE.csv"],
+        "--plan plans flights before anything is measured, and a table has measurements: leave one of them out",
+    ),
     (["--plan", "--temperature-c"], WITHOUT_AIR),
     (["--plan", "--pressure-hpa"], WITHOUT_AIR),
     (["--plan", "--humidity-percent"], WITHOUT_AIR),
@@ -30,16 +34,22 @@ const KNOWN: [([&str; 2], &str); 18] = [
     (["--microphones", "--spin-up"], NAMED_TWICE),
     (["--check", "--json"], "--check analyses nothing, so there are no results to print: leave one of them out"),
     (["--check", "--verbose"], "--check analyses nothing, so there are no tables to print: leave one of them out"),
-    (["--signals", "--signal"], "--signals lists the names of all, --signal writes one: leave one of them out"),
-    (["--signals", "--json"], "--json has the names of all signals already: leave --signals out"),
-    (["--output", "COMMAND"], "-o writes the pages of all commands, COMMAND prints one: leave one of them out"),
+    (
+        ["--signals", "--signal"],
+        "--signals lists the names of all signals, --signal writes one signal into a file: leave one of them out",
+    ),
+    (["--signals", "--json"], "--json already prints the names of all signals: leave --signals out"),
+    (
+        ["--output", "COMMAND"],
+        "-o writes the manual pages of all commands, COMMAND prints the page of one command: leave one of them out",
+    ),
 ];
 
 /// That two arguments cannot be used together. A recording apart from its mass takes the place of an experiment file.
 pub(crate) fn conflict_in_words(one: &str, other: &str, words: &[OsString]) -> String {
     match [one, other].contains(&EXPERIMENT) && !has_experiment(words) {
-        true if has_mass(words) => "a file that does not stand behind a mass counts as the experiment file".to_owned(),
-        true => "the mass that hovers in the recording is missing".to_owned(),
+        true if has_mass(words) => "a file without a mass before it counts as the experiment file".to_owned(),
+        true => "the mass of the vehicle in the recording is missing".to_owned(),
         false => format!("{one} cannot be used with {other}"),
     }
 }
@@ -65,9 +75,11 @@ pub(crate) fn place_in_experiment(flag: &str, words: &[OsString]) -> Option<Stri
     }
     let ExperimentKey { key, table, .. } = ExperimentKey::of_flag(flag)?;
     Some(match has_file {
-        true => format!("write it into the experiment file, as {key} under {table}"),
+        true => format!("write {key} under {table} in the experiment file instead"),
         false => {
-            format!("only an experiment file has a place for it, as {key} under {table}: `hovertone init` writes one")
+            format!(
+                "write {key} under {table} in an experiment file instead; `hovertone init` writes an experiment file"
+            )
         }
     })
 }
@@ -84,15 +96,15 @@ fn has_experiment(words: &[OsString]) -> bool {
 fn beside_experiment(flag: &str, words: &[OsString]) -> String {
     if !has_experiment(words) {
         let order = if has_mass(words) { ", and all other flags before --mass" } else { "" };
-        return format!("write each recording directly behind its mass, as in --mass 413g hover.mov{order}");
+        return format!("write each recording directly after its mass, as in --mass 413g hover.mov{order}");
     }
     match ExperimentKey::of_flag(flag) {
         Some(ExperimentKey { key, table, .. }) => format!(
-            "write it into the experiment file, as {key} in {table}; or leave the file out, and give --mass with recordings"
+            "write {key} under {table} in the experiment file instead; or leave the file out, and give --mass with recordings"
         ),
-        None => {
-            "write it into the experiment file, as mass_kg in [vehicle], or as added_mass_kg in its [[load]]; or leave the file out".to_owned()
-        }
+        None => "write the mass into the experiment file, as mass_kg under [vehicle] or as added_mass_kg under its \
+             [[load]]; or leave the file out"
+            .to_owned(),
     }
 }
 
@@ -131,22 +143,22 @@ mod tests {
         let words = ["hovertone", "identify", "bench.toml"].map(OsString::from);
         let advised = advice(EXPERIMENT, "--latitude-deg", &words);
         assert!(
-            advised.starts_with("write it into the experiment file, as latitude_deg in [vehicle]; or"),
+            advised.starts_with("write latitude_deg under [vehicle] in the experiment file instead; or"),
             "{advised}"
         );
-        assert!(advice("--vehicle", EXPERIMENT, &words).contains("as preset in [vehicle]"));
-        assert!(advice(EXPERIMENT, "--vehicle", &words[..2]).starts_with("write each recording directly behind"));
-        assert!(advice(EXPERIMENT, "--mass", &words).contains("as mass_kg in [vehicle], or as added_mass_kg"));
-        assert!(advice(EXPERIMENT, "--mass", &words[..2]).starts_with("write each recording directly behind"));
+        assert!(advice("--vehicle", EXPERIMENT, &words).contains("preset under [vehicle]"));
+        assert!(advice(EXPERIMENT, "--vehicle", &words[..2]).starts_with("write each recording directly after"));
+        assert!(advice(EXPERIMENT, "--mass", &words).contains("as mass_kg under [vehicle] or as added_mass_kg"));
+        assert!(advice(EXPERIMENT, "--mass", &words[..2]).starts_with("write each recording directly after"));
     }
 
     #[test]
     fn a_flag_of_another_command_is_told_its_key_in_an_experiment_file() {
         let words = ["hovertone", "identify", "bench.toml"].map(OsString::from);
         let told = |flag: &str, words: &[OsString]| place_in_experiment(flag, words).unwrap_or_default();
-        assert_eq!(told("--band", &words), "write it into the experiment file, as band_hz under [tone]");
-        assert!(told("--mass-kg", &words).contains("as mass_kg in [vehicle]"));
-        assert!(told("--order", &words[..2]).starts_with("only an experiment file has a place for it, as order under"));
+        assert_eq!(told("--band", &words), "write band_hz under [tone] in the experiment file instead");
+        assert!(told("--mass-kg", &words).contains("as mass_kg under [vehicle]"));
+        assert!(told("--order", &words[..2]).starts_with("write order under [tone] in an experiment file instead"));
         assert_eq!(told("--mass-kg", &words[..2]) + &told("--colour", &words), "");
         let speed = ["hovertone", "speed", "bench.toml"].map(OsString::from);
         assert_eq!(place_in_experiment("--band", &speed), None);

@@ -28,9 +28,11 @@ pub(crate) fn refuse_copies<'a>(
             job.sha256 = Some(sha256.clone());
             if let Some(first) = known.insert(sha256, job.name.clone()) {
                 let what = match first == job.name {
-                    true => format!("{first} is given twice: counted twice, it would make the ± too small"),
+                    true => format!(
+                        "{first} is given twice: a recording that counts twice makes the uncertainty (±) too small"
+                    ),
                     false => format!(
-                        "{first} and {} are the same recording: counted twice, it would make the ± too small",
+                        "{first} and {} are the same recording: a recording that counts twice makes the uncertainty (±) too small",
                         job.name
                     ),
                 };

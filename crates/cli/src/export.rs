@@ -39,10 +39,10 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
         .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
     let why = Unused {
         without_place: Notice::new(
-            format!("{} has no place for it", format.name()),
-            "leave it out, or choose another format",
+            format!("the format {} has no number for it", format.name()),
+            "leave the flag out, or choose another format with --to",
         ),
-        same: Notice::new("the results have this number already", "leave it out"),
+        same: Notice::new("the results have this number already", "leave the flag out"),
     };
     say_unused(&rotor, arguments, &why, |rotor| export_text(rotor, format), terminal);
     match &arguments.output {
@@ -118,14 +118,20 @@ fn change(
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
     if is_stdin(model) && arguments.output.is_none() {
-        return Err(Failure::usage("stdin cannot be changed in place", "write to a file with -o FILE"));
+        return Err(Failure::usage(
+            "--into cannot change stdin, because stdin is not a file",
+            "write the changed model to a file with -o FILE",
+        ));
     }
     let text = read_text(model, "the model")?;
     let before = model_from_text(&text).map_err(|error| model_failure(&error, model))?;
     let updated = updated_model(&text, rotor).map_err(|error| unchanged(&error, model, arguments))?;
     let why = Unused {
-        without_place: Notice::new("this model has no such number, and --into adds none", "leave it out"),
-        same: Notice::new("this model has the same number already", "leave it out"),
+        without_place: Notice::new(
+            "this model has no number for it, and --into adds no new numbers",
+            "leave the flag out",
+        ),
+        same: Notice::new("this model has the same number already", "leave the flag out"),
     };
     say_unused(rotor, arguments, &why, |rotor| Ok(updated_model(&text, rotor)?.text), terminal);
     let place = arguments.output.as_deref().unwrap_or(model);
@@ -149,16 +155,20 @@ fn change(
     let ratio = rotor.thrust_constant_n_s2 / before.thrust_constant_n_s2;
     if !LIKELY_CHANGE.contains(&ratio) {
         let text = format!("the new constant is {} times the old constant of the model", fixed(ratio, 2));
-        let hint = "check that results and model are of the same vehicle, and that the units are right";
+        let hint = "check that the results and the model belong to the same vehicle, and that the units are right";
         terminal.warning(&Notice::new(text, hint), "");
     }
     if let Some((theirs_kg, heard_kg)) =
         before.mass_kg.zip(rotor.mass_kg).filter(|(theirs, heard)| !are_alike(*theirs, *heard))
     {
         let text = format!(
-            "the model weighs {theirs_kg} kg, but the vehicle that was heard {heard_kg} kg: the model will hover at another speed"
+            "the vehicle weighs {theirs_kg} kg in the model, but {heard_kg} kg in the results: in the simulator, its \
+             rotors will hover at another speed"
         );
-        terminal.warning(&Notice::new(text, "set the mass in the model: --into did not change it"), "");
+        terminal.warning(
+            &Notice::new(text, "change the mass in the model file yourself: --into does not change masses"),
+            "",
+        );
     }
     Ok(Ending::Done)
 }
@@ -168,12 +178,12 @@ fn stale_comments(line_numbers: &[usize]) -> Option<Notice> {
     let (last, others) = line_numbers.split_last()?;
     let others: Vec<String> = others.iter().map(usize::to_string).collect();
     let (lines, hint) = match others.as_slice() {
-        [] => (format!("line {last} still has"), "correct or remove the comment there"),
+        [] => (format!("a comment in line {last} still has"), "correct or remove the comment"),
         others => {
-            (format!("lines {} and {last} still have", others.join(", ")), "correct or remove the comments there")
+            (format!("comments in lines {} and {last} still have", others.join(", ")), "correct or remove the comments")
         }
     };
-    Some(Notice::new(format!("{lines} the old number: --into changes no comments"), hint))
+    Some(Notice::new(format!("{lines} the old number: --into does not change comments"), hint))
 }
 
 /// The failure of a model that cannot be changed.
@@ -183,9 +193,10 @@ fn unchanged(error: &ModelError, model: &Path, arguments: &ExportArguments) -> F
     }
     let hint = match arguments.torque_constant_n_m_s2 {
         Some(_) => {
-            "`hovertone compare --help` lists the files that it knows; without --torque-constant-n-m-s2 the torque stays"
+            "give a model that hovertone knows: `hovertone compare --help` lists them; to keep the torque of the \
+             model, leave --torque-constant-n-m-s2 out"
         }
-        None => "`hovertone compare --help` lists the files that it knows",
+        None => "give a model that hovertone knows: `hovertone compare --help` lists them",
     };
     let what = format!("{error}: nothing was written");
     Failure::Usage { what, hint: hint.to_owned(), path: Some(model.to_owned()) }
@@ -237,9 +248,12 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
         if !coefficients.is_plausible {
             let coefficient = coefficients.propeller;
             let what = format!(
-                "diameter_m = {diameter_m} would give a thrust coefficient C_T of {coefficient:.2e}, and no propeller has that"
+                "diameter_m = {diameter_m} would give a thrust coefficient C_T of {coefficient:.2e}, but no propeller has this value"
             );
-            return Err(Failure::usage(what, "check the diameter: from tip to tip, in m or as 8in"));
+            return Err(Failure::usage(
+                what,
+                "check --diameter-m: it is the diameter from tip to tip, in m, or with a unit, as in 8in",
+            ));
         }
     }
     Ok(rotor)
@@ -253,9 +267,13 @@ fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Resul
         return Ok(());
     }
     let what = format!(
-        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is {arm_m:.2e} m times the thrust constant of one rotor, but propellers have less than {TORQUE_PER_THRUST_M_MAX} m"
+        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is {arm_m:.2e} m times the thrust constant of one rotor, \
+         but for all propellers this ratio is less than {TORQUE_PER_THRUST_M_MAX} m"
     );
-    Err(Failure::usage(what, "give C_τ in torque = C_τ ω², in N m/(rad/s)²: of small propellers it is 1e-9 to 1e-6"))
+    Err(Failure::usage(
+        what,
+        "give C_τ of the law torque = C_τ ω², in N m/(rad/s)²; small propellers have 1e-9 to 1e-6",
+    ))
 }
 
 /// Reads results.json, or one group of the results of a table.
@@ -264,13 +282,13 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
     let text = read_text(path, "the results")?;
     identified_from_results(&text, group).map_err(|error| match error {
         _ if model_from_text(&text).is_ok() => Failure::Usage {
-            what: "this is a model of a simulator, and the results are needed first".to_owned(),
-            hint: "give results.json of `hovertone identify`, then the models".to_owned(),
+            what: "this is a model of a simulator, but results.json of `hovertone identify` is needed here".to_owned(),
+            hint: "give results.json here; `hovertone compare` takes the models after it".to_owned(),
             path: Some(path.to_owned()),
         },
         ResultsError::NotJson(_) if text.lines().any(|line| line.trim() == "[[load]]") => Failure::failed(
-            "this is an experiment file, and results.json is needed",
-            "`hovertone identify EXPERIMENT.toml -o DIR` makes it: DIR/results.json",
+            "this is an experiment file, but results.json is needed here",
+            "run `hovertone identify EXPERIMENT.toml -o DIR`, then give DIR/results.json",
             path,
         ),
         ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => Failure::Usage {
@@ -295,7 +313,8 @@ fn refuse_number(path: &Path) -> Result<(), Failure> {
     let number = path.to_str().filter(|text| text.parse::<f64>().is_ok() && !path.exists());
     number.map_or(Ok(()), |number| {
         let hint = format!(
-            "`hovertone weigh --constant-n-s2 {number} --vehicle NAME` weighs with a number: the constant of the whole vehicle"
+            "to weigh with a number, give `hovertone weigh` the constant of the whole vehicle, as in --constant-n-s2 \
+             {number} --vehicle NAME"
         );
         Err(Failure::usage(format!("{number} is a number, but the file results.json is needed here"), hint))
     })

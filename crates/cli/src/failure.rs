@@ -54,7 +54,10 @@ impl From<ConfigError> for Failure {
     fn from(error: ConfigError) -> Self {
         let hint = match &error {
             ConfigError::EmptySpan { .. } => {
-                format!("give a later end or an earlier start, in seconds or as 1:02.5: {}", see_help(&typed_words()))
+                format!(
+                    "give a later end (--to) or an earlier start (--from), in seconds or as 1:02.5; {}",
+                    see_help(&typed_words())
+                )
             }
             ConfigError::EmptyBand { low_hz, high_hz } if low_hz > high_hz => {
                 format!("write the lower edge first: {high_hz}:{low_hz}")
@@ -103,27 +106,29 @@ impl Failure {
     pub(crate) fn cannot_write(error: &io::Error, path: &Path) -> Self {
         let (what, hint) = match error.kind() {
             io::ErrorKind::NotFound if path.parent().is_some_and(Path::is_dir) => {
-                ("no file can be made in the folder of this name".to_owned(), "choose another place")
+                ("no file can be made in the folder of this file".to_owned(), "choose another place")
             }
             io::ErrorKind::NotFound => {
                 ("the folder of this file does not exist".to_owned(), "make the folder, or choose another place")
             }
-            io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => match path
-                .ancestors()
-                .find(|part| part.is_file())
-            {
-                Some(file) => (
-                    format!("{} is a file, so nothing can be written below it", printable(&file.display().to_string())),
-                    "choose another place",
-                ),
-                None => (format!("this file cannot be written: {error}"), "choose another place"),
-            },
+            io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+                match path.ancestors().find(|part| part.is_file()) {
+                    Some(file) => (
+                        format!(
+                            "{} is a file, not a folder, so nothing can be written into it",
+                            printable(&file.display().to_string())
+                        ),
+                        "choose another place",
+                    ),
+                    None => (format!("this file cannot be written: {error}"), "choose another place"),
+                }
+            }
             io::ErrorKind::PermissionDenied if is_protected(path) => {
                 ("this file is protected against writing".to_owned(), "choose another name, or remove the protection")
             }
             io::ErrorKind::PermissionDenied => (
-                "you have no right to write into the folder of this name".to_owned(),
-                "choose a place in a folder of your own",
+                "you have no right to write into the folder of this file".to_owned(),
+                "write into a folder of your own",
             ),
             io::ErrorKind::FileTooLarge => (
                 "this file becomes larger than the system allows: nothing was written".to_owned(),

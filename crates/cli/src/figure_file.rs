@@ -19,7 +19,7 @@ impl FigureKind {
             Some("png") => Ok(Self::Png),
             Some("svg") => Ok(Self::Svg),
             _ => Err(Failure::Usage {
-                what: "the picture's name ends neither with .png nor with .svg".to_owned(),
+                what: "the name of the picture must end with .png or .svg".to_owned(),
                 hint: hint.to_owned(),
                 path: Some(output.to_owned()),
             }),

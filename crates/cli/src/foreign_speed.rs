@@ -7,7 +7,7 @@ use hovertone_report::{Contradicted, Notice, NoticeKind, SpeedRecord};
 use hovertone_vehicle::RotorSpeed;
 
 /// What to do where a recording seems to be of another vehicle than the constant.
-const OTHER_VEHICLE: &str = "give recordings of the vehicle of the constant";
+const OTHER_VEHICLE: &str = "give recordings of the vehicle with which the constant was measured";
 
 /// The warning that recordings have such a speed. Flags that name the tone can lead there, since they replace the tone behind the constant.
 pub(crate) fn foreign_speed(records: &[SpeedRecord], heard: &HeardTone, typed: &ToneArguments) -> Option<Notice> {
@@ -22,7 +22,8 @@ pub(crate) fn foreign_speed(records: &[SpeedRecord], heard: &HeardTone, typed: &
     };
     let [low, high] = range_rev_s(heard);
     let what = format!(
-        "{}{more} has {:.1} rev/s, but the rotors behind the constant turn at {low:.0} to {high:.0} rev/s",
+        "{}{more}: the rotors turn at {:.1} rev/s, but the constant was measured with rotors that turn at {low:.0} to \
+        {high:.0} rev/s",
         first.file,
         speed.rev_s()
     );
@@ -31,7 +32,8 @@ pub(crate) fn foreign_speed(records: &[SpeedRecord], heard: &HeardTone, typed: &
         [] => OTHER_VEHICLE.to_owned(),
         flags => {
             format!(
-                "leave {} out, since the results have the tone; if that does not help, {OTHER_VEHICLE}",
+                "leave {} out, because the results already say which tone to use; if the warning stays, \
+                {OTHER_VEHICLE}",
                 flags.join(" and ")
             )
         }
@@ -46,13 +48,15 @@ pub(crate) fn advise_by_constant(record: &mut SpeedRecord, heard: &HeardTone, ty
         return;
     }
     let [low, high] = range_rev_s(heard);
-    let not_heard =
-        format!("no rotor is heard at {low:.0} to {high:.0} rev/s, where the rotors behind the constant turn");
+    let not_heard = format!(
+        "no rotor is heard at {low:.0} to {high:.0} rev/s, the speeds of the rotors with which the constant was \
+        measured"
+    );
     match no_series_of(record) {
         _ if record.spoiled.is_some() => {}
         Some(Some(OtherRotor { blades, speed_rev_s })) => {
             record.spoiled = Some(format!(
-                "{not_heard}. But one with {blades} blades may turn at {speed_rev_s:.1} rev/s: {OTHER_VEHICLE}"
+                "{not_heard}. But a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s: {OTHER_VEHICLE}"
             ));
         }
         Some(None) => record.spoiled = Some(format!("{not_heard}; {OTHER_VEHICLE}, or move the microphone nearer")),

@@ -85,19 +85,21 @@ fn is_utf16(content: &[u8]) -> bool {
 pub(crate) fn is_no_text(what: &str, path: &Path, content: &[u8]) -> Failure {
     if is_utf16(content) {
         let found = "this file is text in UTF-16, which hovertone does not read";
-        return Failure::failed(found, "save it in UTF-8; in Excel this is the kind \"CSV UTF-8\"", path);
+        return Failure::failed(found, "save the file as UTF-8; in Excel, choose the file type \"CSV UTF-8\"", path);
     }
     let found = format!("this file is not text, so it cannot be {what}");
     Failure::failed(
         found,
-        "check the names of the files and their sequence; `hovertone speed` hears recordings, `hovertone log` reads logs of flights",
+        "check the names of the files and their sequence; `hovertone speed` hears recordings, `hovertone log` reads flight logs",
         path,
     )
 }
 
 fn cannot_open(error: &io::Error, what: &str, path: &Path) -> Failure {
     let (found, hint) = match error.kind() {
-        _ if path.is_dir() => (format!("this is a folder, and {what} must be a file"), "name the file in the folder"),
+        _ if path.is_dir() => {
+            (format!("this is a folder, but {what} must be a file"), "give the name of the file in the folder")
+        }
         io::ErrorKind::NotFound => {
             let hint = format!("check the name and the folder of {what}");
             return Failure::failed("there is no such file", hint, path);
@@ -144,9 +146,11 @@ fn refuse_no_sound(beginning: &[u8]) -> Result<(), Failure> {
     if beginning.is_empty() || Container::of_beginning(beginning).is_some() {
         return Ok(());
     }
-    let what = "stdin is no audio or video file that hovertone can read: its first bytes match no format".to_owned();
-    let hint =
-        "send a recording, as in `hovertone speed - < hover.wav`; give what only ffmpeg can read as a file".to_owned();
+    let what =
+        "stdin is not an audio or video file that hovertone can read: its first bytes match no known format".to_owned();
+    let hint = "send a recording, as in `hovertone speed - < hover.wav`; if only ffmpeg can read the format, give the \
+         recording as a file"
+        .to_owned();
     Err(Failure::Failed { what, hint, path: None })
 }
 
@@ -161,26 +165,33 @@ fn first_use(what: &str) -> Result<std::sync::MutexGuard<'static, Used>, Failure
     let used = USED.lock().map_err(Failure::internal)?;
     if !matches!(*used, Used::No) {
         return Err(Failure::usage(
-            "stdin (-) is named twice, and it can be read only once",
-            "give the other as a file",
+            "stdin (-) is given twice, but it can be read only once",
+            "give one of the two as a file",
         ));
     }
     if io::stdin().is_terminal() {
-        let hint = "pipe it in, as in `hovertone speed - < hover.wav`, or give a file";
-        return Err(Failure::usage(format!("{what} would be read from the terminal, and it cannot be typed"), hint));
+        let hint = "send a file to stdin, as in `hovertone speed - < hover.wav`, or give the name of the file";
+        return Err(Failure::usage(
+            format!("{what} should come from stdin (-), but stdin is the keyboard of this terminal"),
+            hint,
+        ));
     }
     Ok(used)
 }
 
 fn cannot_read(error: &io::Error, what: &str) -> Failure {
-    Failure::failed(format!("{what} cannot be read: {error}"), "check the program before the pipe", Path::new(STDIN))
+    Failure::failed(
+        format!("{what} cannot be read: {error}"),
+        "check the program that sends it to stdin",
+        Path::new(STDIN),
+    )
 }
 
 fn cannot_keep(error: &io::Error) -> Failure {
     let folder = std::env::temp_dir();
     Failure::failed(
-        format!("the recording of stdin cannot be kept: {error}"),
-        "free space there, or set TMPDIR",
+        format!("the recording from stdin cannot be stored in this folder: {error}"),
+        "make room in this folder, or set the variable TMPDIR to another folder",
         &folder,
     )
 }

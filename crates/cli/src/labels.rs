@@ -39,17 +39,17 @@ pub(crate) fn resolve(
     let (what, flag) = match (&arguments.log, &arguments.spin_up) {
         (None, None) => return Ok(None),
         (Some(_), _) => ("a log", "--log"),
-        (None, Some(_)) => ("an order of starts", "--spin-up"),
+        (None, Some(_)) => ("a sequence of motor starts", "--spin-up"),
     };
     if recordings != 1 {
-        let what = format!("{what} is of one flight, but {recordings} recordings are given");
-        return Err(Failure::usage(what, "give the one recording that was made in the same flight"));
+        let what = format!("{what} ({flag}) belongs to one flight, but {recordings} recordings are given");
+        return Err(Failure::usage(what, "give only the recording of the same flight"));
     }
     if rotors < 2 {
-        let what = format!("to name rotors by {flag}, hovertone needs the number of rotors, 2 or more");
+        let what = format!("to tell by {flag} which rotor is which, hovertone needs the number of rotors, 2 or more");
         return Err(Failure::usage(
             what,
-            "give their number, as in --rotors 4; a rotor that turns alone needs no name",
+            format!("give the number of rotors, as in --rotors 4; if only one rotor turns, leave {flag} out"),
         ));
     }
     let Some(path) = &arguments.log else {
@@ -90,14 +90,16 @@ fn logs_of(
             _ if !logs.is_empty() => {}
             (None, _) => {
                 return Err(Failure::usage(
-                    "the log has body rates, and the direction of their axes is not known: front and rear could be swapped",
+                    "the log has the rates at which the vehicle turns, but the direction of their axes is not known: \
+                     front and rear rotors could be swapped",
                     "give --log-axes flu (x forward, y left, z up) or frd (y right, z down: PX4, ArduPilot)",
                 ));
             }
             (_, None) => {
                 return Err(Failure::usage(
-                    "the log has body rates, and the places of the rotors are not known",
-                    "give --layout x or plus, or a vehicle whose layout is known (`hovertone vehicles`)",
+                    "the log has the rates at which the vehicle turns, but the places of the rotors are not known",
+                    "give --layout x or --layout plus, or --vehicle with a vehicle whose layout is known (`hovertone \
+                     vehicles` lists vehicles)",
                 ));
             }
         }
@@ -146,9 +148,9 @@ fn axes_of(of_format: Option<RateAxes>, said: Option<BodyAxes>) -> Result<Option
 fn contradicted(of_format: &str, said: &str) -> Failure {
     Failure::usage(
         format!(
-            "by the format of this log, the axes of its body rates are x forward, {of_format}; --log-axes {said} contradicts this"
+            "in a log of this format, the axes are always x forward, {of_format}; --log-axes {said} contradicts the format"
         ),
-        "leave --log-axes out: it is only for CSV",
+        "leave --log-axes out: the flag is only for CSV logs",
     )
 }
 
@@ -165,8 +167,8 @@ fn places_of(layout: Option<FrameLayout>, vehicle: Option<&Vehicle>) -> Option<[
 /// Says of a recording that no rotor is named, where its shaft speed is ambiguous.
 pub(crate) fn note_if_ambiguous(record: &mut SpeedRecord) {
     if record.is_ambiguous() {
-        let hint = "settle the shaft speed first: the line \"ambiguous\" says how";
-        record.notices.push(Notice::new("no rotor is named: the shaft speed is ambiguous", hint));
+        let hint = "find the right shaft speed first: the line \"ambiguous\" says how";
+        record.notices.push(Notice::new("no rotor gets a name, because several shaft speeds are possible", hint));
     }
 }
 

@@ -16,11 +16,11 @@ use std::path::Path;
 
 /// Name of a log in messages.
 pub(crate) const THE_LOG: &str = "the log";
-const IS_RECORDING: &str = "this is a recording, and a log is needed";
+const IS_RECORDING: &str = "this is a recording, but a log is needed";
 const HINT_OF_RECORDING: &str = "give the log of the flight; `hovertone speed` hears a recording";
 /// The commands that take names for columns.
 const WITH_COLUMNS: [&str; 4] = ["log", "motor", "verify", "greybox"];
-const HINT_OF_LOSS: &str = "download the log again; what could be read of it was used";
+const HINT_OF_LOSS: &str = "download the log again; hovertone used the part that it could read";
 
 /// Lists all logs, or writes signals of one.
 pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<E
         return match arguments.files.as_slice() {
             [file] => write_signals(file, output, &names, arguments, terminal),
             files => {
-                let what = format!("--signal writes one log, and {} are given", files.len());
+                let what = format!("--signal writes the signals of one log, but {} logs are given", files.len());
                 Err(Failure::usage(what, "give one log at a time"))
             }
         };

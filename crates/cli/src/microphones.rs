@@ -17,7 +17,7 @@ use hovertone_vehicle::Vehicle;
 use serde::Deserialize;
 use std::path::Path;
 
-const SEE_EXAMPLE: &str = "docs/formats.md shows a file of microphones";
+const SEE_EXAMPLE: &str = "docs/formats.md shows an example of a file of microphones";
 
 /// The file of microphones.
 #[derive(Deserialize)]
@@ -63,8 +63,8 @@ pub(crate) fn resolve(
     let Some(path) = &arguments.microphones else { return Ok(None) };
     let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
     if rotors < 2 {
-        let what = "to name rotors by microphones, hovertone needs the number of rotors, 2 or more";
-        return Err(refused(what.to_owned(), "give their number, as in --rotors 4"));
+        let what = "to tell by --microphones which rotor is which, hovertone needs the number of rotors, 2 or more";
+        return Err(refused(what.to_owned(), "give the number of rotors, as in --rotors 4"));
     }
     let file: MicrophonesFile =
         TomlFile::read(path, "file of microphones", NO_RECORDING, SEE_EXAMPLE)?.with_content()?.parse()?;
@@ -81,24 +81,25 @@ pub(crate) fn resolve(
     let Some(places) = Some(given).filter(|given| !given.is_empty()).or_else(|| places_of(vehicle?)) else {
         return Err(refused(
             "the places of the rotors are not known".to_owned(),
-            "add a [[rotor]] with name and position_m for each, or give --vehicle with one whose frame is known (`hovertone vehicles`)",
+            "add a [[rotor]] with name and position_m for each rotor, or give --vehicle with a vehicle whose frame \
+             is known (`hovertone vehicles` lists vehicles)",
         ));
     };
     let microphones_m = file.microphones.iter().map(|microphone| microphone.position_m).collect();
     let array = MicrophoneArray::new(microphones_m, places).map_err(|error| {
         let hint = match error {
             ArrayError::TooFewMicrophones { .. } => "add a [[microphone]] with its position_m for each channel",
-            ArrayError::WrongRotorCount { .. } => "add a [[rotor]] with name and position_m for each",
+            ArrayError::WrongRotorCount { .. } => "add a [[rotor]] with name and position_m for each rotor",
             _ => "correct its position_m: metres in the vehicle's frame",
         };
         refused(error.to_string(), hint)
     })?;
     if array.rotor_count() != rotors as usize {
         let what = format!(
-            "{rotors} rotors turn, but {} rotors have a place: the two numbers must be equal",
+            "{rotors} rotors turn, but {} rotors have a position: the two numbers must be equal",
             array.rotor_count()
         );
-        return Err(refused(what, "give their number with --rotors, and the place of each"));
+        return Err(refused(what, "give the number of rotors with --rotors, and one [[rotor]] for each of them"));
     }
     for job in jobs {
         check_channels(job, hearing, &array)?;
@@ -129,7 +130,7 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
         what: format!(
             "the recording has {channels} channels, but {microphones} microphones have a position: the two numbers must be equal"
         ),
-        hint: "give one [[microphone]] for each channel, in their order; --audio-track N chooses another track"
+        hint: "give one [[microphone]] for each channel, in the sequence of the channels; --audio-track N chooses another track of the file"
             .to_owned(),
         path: Some(job.path.clone()),
     })

@@ -73,7 +73,7 @@ const ALL_BESIDE: [NeededBeside; 7] = [
     needed_beside("--commands <LOG>", &["--offset"], "the commands too: --commands LOG"),
     needed_beside("--signal <NAME>", &["--output", "-o"], "the name of the signal too: --signal NAME"),
     needed_beside("--output <FILE.csv>", &["--signal"], "a file for the signal too: -o FILE.csv"),
-    needed_beside("--plan", OF_PLAN, "--plan, and the mass of the vehicle: --plan --mass-kg KG"),
+    needed_beside("--plan", OF_PLAN, "--plan and the mass of the vehicle: --plan --mass-kg KG"),
     needed_beside("--mass-kg <KG>", &["--plan"], "the mass of the vehicle: --mass-kg KG"),
 ];
 
@@ -117,7 +117,7 @@ mod tests {
             ("log a.ulg --signal speed", "--signal needs a file for the signal too: -o FILE.csv"),
             (
                 "fit a.csv --wanted-share=0.1",
-                "--wanted-share needs --plan, and the mass of the vehicle: --plan --mass-kg KG",
+                "--wanted-share needs --plan and the mass of the vehicle: --plan --mass-kg KG",
             ),
             ("fit --plan", "--plan needs the mass of the vehicle: --mass-kg KG"),
         ] {

@@ -104,8 +104,9 @@ impl Misuse {
             }
             ErrorKind::InvalidUtf8 => {
                 let word = words.iter().find(|word| word.to_str().is_none()).map(|word| word.to_string_lossy());
-                let what = format!("\"{}\": this word is no text in UTF-8", printable(&word.unwrap_or_default()));
-                let hint = "if it is the name of a file, rename the file, or give the folder that holds it".to_owned();
+                let what = format!("\"{}\": this word is not valid UTF-8 text", printable(&word.unwrap_or_default()));
+                let hint =
+                    "if the word is the name of a file, rename the file, or give the folder of the file".to_owned();
                 Self { what, hint: Some(hint) }
             }
             _ => Self { what: first_line(error), hint: None },
@@ -138,7 +139,8 @@ impl Misuse {
                 let what = format!("{flag}{word}: {DECIMAL_SIGN}");
                 return Self { what, hint: Some(format!("write {point}")) };
             }
-            let hint = "write the value without the minus sign; a file of this name is written ./NAME".to_owned();
+            let hint =
+                "write the value without the minus sign; if this is the name of a file, write ./ before it".to_owned();
             return Self { what: format!("{flag}{word}: this value cannot be negative"), hint: Some(hint) };
         }
         if let Some(place) = place_of_log(name, words) {
@@ -157,21 +159,24 @@ impl Misuse {
             Some("init") => {
                 let is_new_file = name.ends_with(".toml");
                 if !is_new_file && !Path::new(name).exists() {
-                    let behind = "init takes recordings behind their mass, as in --mass 413g";
+                    let behind = "write each recording after its mass, as in --mass 413g";
                     let hint = format!("check the name and its folder; {behind} {name}");
                     return Self { what: format!("{name}: there is no such file"), hint: Some(hint) };
                 }
-                let what = format!("\"{name}\": init takes recordings behind the mass that hovers in them");
+                let what = format!("\"{name}\": init needs a mass before each recording");
                 let hint = if is_new_file {
                     format!("to name the new file, write -o {name}")
                 } else {
-                    format!("as in --mass 413g {name}")
+                    format!("write --mass 413g {name}, with your mass")
                 };
                 return Self { what, hint: Some(hint) };
             }
             Some("vehicles") => {
                 let hint = Some("write `hovertone vehicles` alone".to_owned());
-                return Self { what: format!("\"{name}\": vehicles takes no name, and lists all of them"), hint };
+                return Self {
+                    what: format!("\"{name}\": `hovertone vehicles` takes no name, because it lists all vehicles"),
+                    hint,
+                };
             }
             _ => {}
         }
@@ -185,7 +190,7 @@ impl Misuse {
             let hint = Some(format!("leave \"{name}\" out"));
             return Self { what: format!("\"{name}\": listen hears one recording at a time"), hint };
         }
-        let what = format!("\"{name}\": listen takes a recording by its flag {flag}");
+        let what = format!("\"{name}\": listen takes a recording only with the flag {flag}");
         Self { what, hint: Some(format!("write {flag} {name}")) }
     }
 }
@@ -272,15 +277,15 @@ mod tests {
             ("hovertone speed a.wav --method guess", "--method guess: there is no such value (give one of: "),
             (
                 "hovertone speed a.wav --blades",
-                "--blades has no value (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades has no value (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --blades -1",
-                "--blades -1: must be a whole number from 1 to 20 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades -1: must be a whole number from 1 to 20 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --blades two",
-                "--blades two: must be a whole number from 1 to 20 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades two: must be a whole number from 1 to 20 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --window-s long",
@@ -296,7 +301,7 @@ mod tests {
                 "there is no flag --true-rpm (did you mean --tachometer-rpm?)",
             ),
             ("hovertone speed a.wav --blade 2", "there is no flag --blade (did you mean --blades?)"),
-            ("hovertone weigh a.wav --added 0.1", "there is no flag --added (as in `hovertone weigh "),
+            ("hovertone weigh a.wav --added 0.1", "there is no flag --added (for example `hovertone weigh "),
             ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
             ("hovertone speeed a.wav", "there is no command \"speeed\" (did you mean speed?)"),
@@ -306,13 +311,19 @@ mod tests {
             ("hovertone quality", "there is no command \"quality\" (`hovertone --help` lists all commands)"),
             (
                 "hovertone speed",
-                "speed needs at least one recording (as in `hovertone speed --blades 2 hover.mp4`; see",
+                "speed needs at least one recording (for example `hovertone speed --blades 2 hover.mp4`; see",
             ),
-            ("hovertone weigh a.wav", "weigh needs a thrust constant: --constant RESULTS.json (as in `hovertone weigh"),
-            ("hovertone batch", "batch needs a folder for the results: -o OUT, and a folder with recordings (as in"),
+            (
+                "hovertone weigh a.wav",
+                "weigh needs a thrust constant: --constant RESULTS.json (for example `hovertone weigh",
+            ),
+            (
+                "hovertone batch",
+                "batch needs a folder for the results: -o OUT, and a folder with recordings (for example",
+            ),
             (
                 "hovertone demo extra",
-                "\"extra\" has no place in this command (as in `hovertone demo`; see `hovertone demo --help`)",
+                "\"extra\" has no place in this command (for example `hovertone demo`; see `hovertone demo --help`)",
             ),
             (
                 "hovertone spectrogram a.wav b.wav -o x.png",
@@ -320,15 +331,16 @@ mod tests {
             ),
             (
                 "hovertone init hover.mp4",
-                "hover.mp4: there is no such file (check the name and its folder; init takes recordings behind their mass, as in --mass 413g hover.mp4)",
+                "hover.mp4: there is no such file (check the name and its folder; write each recording after its \
+                 mass, as in --mass 413g hover.mp4)",
             ),
             (
                 "hovertone init src/lib.rs",
-                "\"src/lib.rs\": init takes recordings behind the mass that hovers in them (as in --mass 413g src/lib.rs)",
+                "\"src/lib.rs\": init needs a mass before each recording (write --mass 413g src/lib.rs, with your mass)",
             ),
             (
                 "hovertone listen hover.mp4",
-                "\"hover.mp4\": listen takes a recording by its flag --from-file (write --from-file",
+                "\"hover.mp4\": listen takes a recording only with the flag --from-file (write --from-file",
             ),
             (
                 "hovertone listen --from-file a.wav b.wav",

@@ -15,11 +15,11 @@ pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
 pub(crate) fn model_failure(error: &ModelError, path: &Path) -> Failure {
     let hint = match error {
         ModelError::NoExport => {
-            "give the model of a simulator; the constant of each results.json stands in its report.html"
+            "give the model of a simulator; to see the constant of a results.json, open the report.html beside it"
         }
-        ModelError::WebPage => "name the file of the model itself: a page that shows it is not enough",
+        ModelError::WebPage => "give the file of the model itself, not a web page that shows the file",
         ModelError::Expression { .. } => "write the number into the model, in place of the expression",
-        _ => "`hovertone compare --help` lists the files that it knows",
+        _ => "give a model that hovertone knows: `hovertone compare --help` lists them",
     };
     Failure::failed(error.to_string(), hint, path)
 }

@@ -126,7 +126,7 @@ impl<'a> Plan<'a> {
         let heard = motor_in(job, hearing, heard_commands, &progress);
         progress.finish();
         let heard = heard.map_err(|reason| {
-            let what = format!("this is no log, and no recording that can be heard: {reason}");
+            let what = format!("this file is neither a log nor a recording that hovertone can hear: {reason}");
             Failure::failed(what, "give a log, or a video or audio file", file)
         })?;
         let mut sound = MotorSound { has_commands: commands.is_some(), ..MotorSound::default() };
@@ -158,8 +158,8 @@ impl Plan<'_> {
         let is_part = self.arguments.from.or(self.arguments.to).is_some();
         let advice = if is_part { "choose a longer part with --from and --to" } else { "record a longer run" };
         format!(
-            "no speed is held for a second, or the rotor is too faint; {advice}, in which each speed is held for a second or longer, or place the \
-             microphone nearer"
+            "no speed stays the same for a second, or the rotor is too faint; {advice}, in which each speed stays \
+             the same for a second or longer, or place the microphone nearer"
         )
     }
 
@@ -169,8 +169,7 @@ impl Plan<'_> {
         let what = format!(
             "with --offset {given_s}, commands and speed do not change at the same times, so the commands are not used"
         );
-        let hint =
-            format!("they change at the same times with --offset {other_s:.2}: leave --offset out, or correct it");
+        let hint = format!("leave --offset out, or give --offset {other_s:.2}: then they change at the same times");
         Some(Notice::new(what, hint))
     }
 }
@@ -207,7 +206,7 @@ impl<'a> FigureFile<'a> {
     fn of(place: &'a Path, arguments: &MotorArguments) -> Result<Self, Failure> {
         let kind = FigureKind::of(place, "use --figure steps.png or --figure steps.svg")?;
         if arguments.files.len() > 1 {
-            let what = format!("--figure draws one file, and {} are given", arguments.files.len());
+            let what = format!("--figure draws one file, but {} files are given", arguments.files.len());
             return Err(Failure::usage(what, "give one file at a time"));
         }
         let outputs = Outputs::beside(arguments.files.iter().chain(&arguments.commands), arguments.replace.force);
@@ -224,7 +223,7 @@ impl<'a> FigureFile<'a> {
             })
             .collect();
         let Some(figure) = motor_steps_figure(&steps).map_err(Failure::internal)? else {
-            terminal.say("no step with a time constant: no figure was written");
+            terminal.say("no figure was written, because no step of the speed has a time constant");
             return Ok(());
         };
         self.outputs.write(self.place, self.kind.bytes(figure, DOTS_PER_INCH)?)?;
@@ -238,8 +237,8 @@ fn commands_of(path: &Path, names: &ColumnNames) -> Result<LoggedMotors, Failure
     let flight = flight_of(path, names)?.ok_or_else(|| log_failure(&LogError::UnknownFormat, path))?;
     let commands = flight.commands.filter(|commands| !commands.values.is_empty());
     commands.ok_or_else(|| {
-        let hint = "give a log, or a CSV with columns such as time_s and motor1_pwm (see --column)";
-        Failure::failed("--commands names a file without commands of motors", hint, path)
+        let hint = "give a log with motor commands, or a CSV with columns such as time_s and motor1_pwm (--column renames columns)";
+        Failure::failed("this file of --commands has no motor commands", hint, path)
     })
 }
 
@@ -260,7 +259,9 @@ pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<Logge
         let what = format!(
             "a motor of this log turns at {fastest_rev_s:.3e} rev/s, but no motor exceeds {SPEED_REV_S_MAX} rev/s"
         );
-        let hint = "check the unit in the header of the speed, or name it: --column HEADER=rotor1_rpm".to_owned();
+        let hint =
+            "check the unit in the header of the speed column, or give the unit, as in --column HEADER=rotor1_rpm"
+                .to_owned();
         return Err(Failure::Usage { what, hint, path: Some(file.to_owned()) });
     }
     Ok(Some(flight))

@@ -21,8 +21,8 @@ pub(crate) fn refuse_of_recording(flags: &[String], log: &Path) -> Result<(), Fa
     let words = typed_words();
     let Some(flag) = flags.iter().find(|flag| is_typed(&words, flag)) else { return Ok(()) };
     Err(Failure::Usage {
-        what: format!("this is a log, and {flag} belongs to a recording"),
-        hint: format!("leave {flag} out: a log is used whole, with its own speeds and commands"),
+        what: format!("this is a log, but {flag} belongs to a recording"),
+        hint: format!("leave {flag} out: hovertone uses the whole log, with its own speeds and commands"),
         path: Some(log.to_owned()),
     })
 }

@@ -47,24 +47,24 @@ impl OutputFolder {
         if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
             if let Some(input) = folder.outputs.input_in(path) {
                 let what = format!(
-                    "this folder holds {}, which is an input: nothing was written",
+                    "this folder holds the input {}: nothing was written",
                     printable(&input.display().to_string())
                 );
                 return Err(refused(&what, "choose another folder for the results, as in -o results", path));
             }
             let what = format!(
-                "this folder has files that no earlier run for the same {} wrote: nothing was written",
+                "this folder has files that do not come from an earlier run with the same {}: nothing was written",
                 content.name
             );
-            let hint = "choose a new folder with -o DIR, or use --force to write there: files of the same names are \
-                        replaced, all others stay";
+            let hint = "choose a new folder with -o DIR, or use --force to write into this folder: files with the \
+                        same names are replaced, all other files stay";
             return Err(refused(&what, hint, path));
         }
         for name in content.files.iter().map(|name| (*name).to_owned()).chain(folder.list.names()) {
             let place = folder.place(&name);
             folder.outputs.refuse_input(&place)?;
             if folder.outputs.would_lose(&place) && !folder.list.has_unchanged(&name) {
-                let what = "hovertone did not write this file, or it was changed since; nothing was written";
+                let what = "hovertone did not write this file, or the file was changed later: nothing was written";
                 return Err(refused(what, "choose a new folder with -o DIR, or use --force to replace it", &place));
             }
         }
@@ -86,7 +86,7 @@ impl OutputFolder {
                 Err(Failure::failed(CLOSED_FOLDER, "choose another with -o DIR", &self.path))
             }
             Err(_) if self.path.exists() => {
-                Err(Failure::failed("this is a file, and a folder is needed", "choose another with -o DIR", &self.path))
+                Err(Failure::failed("this is a file, but a folder is needed", "choose another with -o DIR", &self.path))
             }
             Err(_) => Ok(true),
         }

@@ -93,7 +93,7 @@ pub(crate) fn refuse_dash(place: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     let what = "- is given as an output, but it does not mean stdout here";
-    Err(Failure::usage(what, "give the name of a file or folder; one that is really called - is written ./-"))
+    Err(Failure::usage(what, "give the name of a file or folder; if the name really is -, write ./-"))
 }
 
 /// Writes the content of a file that was begun, and puts it into its place.

@@ -9,7 +9,7 @@ use std::env;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-const SEE_EXAMPLE: &str = "`hovertone vehicles --help` shows a file of vehicles";
+const SEE_EXAMPLE: &str = "`hovertone vehicles --help` shows an example of a file of vehicles";
 const KIND: &str = "file of vehicles";
 
 /// The vehicles in the user's file, once it was read.

@@ -146,9 +146,12 @@ fn motor_of_passes(
 fn guess_in_words(meaning: Meaning) -> Option<Notice> {
     let blades = meaning.blades().filter(|_| meaning.gear().is_none())?;
     let what = format!(
-        "the number of blades is not known: the speeds are for propellers with {blades} blades, as the sound suggests"
+        "the number of blades is not given: the speeds are for propellers with {blades} blades, because the sound suggests this number"
     );
-    Some(Notice::new(what, "count the blades and give --blades N; the time constants are the same for any number"))
+    Some(Notice::new(
+        what,
+        "count the blades and give --blades N; the time constants do not depend on the number of blades",
+    ))
 }
 
 /// A rotor that the settings leave out, and that fits the sound far better.

@@ -67,10 +67,14 @@ fn folder_in_words(folder: &Path) -> String {
     let first = inside.first().or(below.first());
     let advice = match first.and_then(|group| Some((group, group.files.first()?))) {
         Some((group, file)) if group.files.len() > 1 => {
-            format!("name a recording in it, such as {}, or several, as {}", file.display(), group.pattern.display())
+            format!(
+                "give a recording in the folder, such as {}, or several recordings, such as {}",
+                file.display(),
+                group.pattern.display()
+            )
         }
-        Some((_, file)) => format!("name the recording in it: {}", file.display()),
-        None => "it holds none, so name the recording itself".to_owned(),
+        Some((_, file)) => format!("give the recording in the folder: {}", file.display()),
+        None => "the folder holds no recordings, so give the name of a recording".to_owned(),
     };
     format!("this is a folder, not a recording; {advice}")
 }
@@ -78,9 +82,12 @@ fn folder_in_words(folder: &Path) -> String {
 /// What to say of a pattern where one recording is needed.
 fn pattern_in_words(pattern: &Path) -> String {
     match files_of(pattern).iter().filter(|file| file.is_file()).collect::<Vec<_>>().as_slice() {
-        [] => "no file matches this pattern; check the folder and the ending of its files".to_owned(),
+        [] => "no file matches this pattern; check the folder and the ending in the pattern, such as *.wav".to_owned(),
         [first, ..] => {
-            format!("this is a pattern, and one recording is heard at a time; name one, such as {}", first.display())
+            format!(
+                "this is a pattern, but this command hears one recording at a time; give one recording, such as {}",
+                first.display()
+            )
         }
     }
 }
@@ -129,12 +136,15 @@ mod tests {
     fn a_folder_is_told_by_its_recordings() {
         let folder = tempfile::tempdir().unwrap();
         let said = || folder_in_words(folder.path()).replace(&format!("{}/", folder.path().display()), "");
-        assert_eq!(said(), "this is a folder, not a recording; it holds none, so name the recording itself");
+        assert_eq!(
+            said(),
+            "this is a folder, not a recording; the folder holds no recordings, so give the name of a recording"
+        );
         fs::create_dir(folder.path().join("a")).unwrap();
         fs::write(folder.path().join("a/1.wav"), "").unwrap();
-        assert!(said().ends_with("name the recording in it: a/1.wav"), "{}", said());
+        assert!(said().ends_with("give the recording in the folder: a/1.wav"), "{}", said());
         fs::write(folder.path().join("a/2.wav"), "").unwrap();
-        assert!(said().ends_with("such as a/1.wav, or several, as a/*.wav"), "{}", said());
+        assert!(said().ends_with("such as a/1.wav, or several recordings, such as a/*.wav"), "{}", said());
     }
 
     #[test]

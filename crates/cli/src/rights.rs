@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Advice where a right to read is missing.
-pub(crate) const GET_RIGHT: &str = "ask its owner for the right to read it, or copy it to a folder of your own";
+pub(crate) const GET_RIGHT: &str = "ask the owner for the right to read it, or for a copy";
 /// What happened, where the folder stands before the message.
 pub(crate) const CLOSED_FOLDER: &str = "you have no right to open this folder";
 

@@ -20,10 +20,10 @@ pub(crate) fn see_help(words: &[OsString]) -> String {
 pub(crate) fn example_and_help(words: &[OsString], flag: &str) -> String {
     let help = see_help(words);
     let Some(command) = typed_command(words) else { return help };
-    let example = example_of(&command, flag).map(|example| format!("as in `{example}`"));
+    let example = example_of(&command, flag).map(|example| format!("for example `{example}`"));
     let advice = example
         .or_else(|| purpose_of(&command, flag))
-        .or_else(|| Some(format!("as in `{}`", examples_of(&command).first()?)));
+        .or_else(|| Some(format!("for example `{}`", examples_of(&command).first()?)));
     advice.map_or_else(|| help.clone(), |advice| format!("{advice}; {help}"))
 }
 
@@ -96,7 +96,7 @@ mod tests {
     fn the_example_has_the_flag_in_question() {
         let words = ["hovertone", "calibrate", "--true-hz"].map(OsString::from);
         let hint = example_and_help(&words, "--true-hz");
-        assert_eq!(hint, "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`");
+        assert_eq!(hint, "for example `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`");
         let words = ["hovertone", "log", "flight.ulg", "--signal", "esc_status"].map(OsString::from);
         let hint = example_and_help(&words, "--output");
         assert!(hint.contains("--signal esc_status -o speeds.csv"), "{hint}");

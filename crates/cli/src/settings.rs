@@ -50,9 +50,8 @@ fn check_read(analysis: &AnalysisArguments, method: Method) -> Result<(), Failur
         (analysis.window_s.is_some() && reads_no_ridges, "--window-s", OF_RIDGES),
     ];
     let Some((_, flag, methods)) = flags.into_iter().find(|(is_unused, ..)| *is_unused) else { return Ok(()) };
-    let what =
-        format!("{flag} changes nothing: the speed is read by --method {}, which does not use it", method.name());
-    Err(Failure::usage(what, format!("leave it out, or give {methods}")))
+    let what = format!("{flag} changes nothing, because --method {} does not use it", method.name());
+    Err(Failure::usage(what, format!("leave {flag} out, or give {methods}")))
 }
 
 /// Refuses what tells only of the ± and of the shaft's lines, where neither is shown.
@@ -66,7 +65,7 @@ pub(crate) fn refuse_of_table(analysis: &AnalysisArguments, why: &str) -> Result
     match flags.into_iter().find(|(_, is_given)| *is_given) {
         Some((flag, _)) => Err(Failure::usage(
             format!("{flag} changes nothing: {why}"),
-            format!("leave it out; `hovertone speed {flag}` shows it"),
+            format!("leave {flag} out here; it works with `hovertone speed`"),
         )),
         None => Ok(()),
     }

@@ -62,8 +62,8 @@ fn subcommand<'a>(program: &'a Command, name: &str) -> Result<&'a Command, Failu
     program.find_subcommand(name).ok_or_else(|| {
         let names = program.get_subcommands().map(Command::get_name);
         let hint = match nearest(name, names) {
-            Some(nearest) => format!("did you mean \"{nearest}\"? `hovertone --help` lists all"),
-            None => "`hovertone --help` lists all".to_owned(),
+            Some(nearest) => format!("did you mean \"{nearest}\"? `hovertone --help` lists all commands"),
+            None => "`hovertone --help` lists all commands".to_owned(),
         };
         Failure::usage(format!("there is no command \"{name}\""), hint)
     })

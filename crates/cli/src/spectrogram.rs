@@ -21,8 +21,8 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     let kind = FigureKind::of(&arguments.output, "use -o spectrogram.png or -o spectrogram.svg")?;
     refuse_of_table(&arguments.analysis, "a picture shows neither the ± nor the condition of the rotors")?;
     if let (FigureKind::Svg, Some(dpi)) = (kind, arguments.dpi) {
-        let what = format!("--dpi {dpi} changes nothing: an SVG has lines, and no dots");
-        return Err(Failure::usage(what, "leave it out, or name a picture that ends with .png"));
+        let what = format!("--dpi {dpi} changes nothing, because an SVG picture has lines and no dots");
+        return Err(Failure::usage(what, "leave --dpi out, or give a name that ends with .png"));
     }
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     if let Some(notice) = idle_mass(&arguments.known, &config.known) {
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     let reason = record.reason();
     let trial = trial_of("", record, reason.as_deref(), Some(&drawing));
     let Some(figure) = recording_figure(&trial, "spectrogram").map_err(Failure::internal)? else {
-        terminal.say("nothing was written: a picture needs a tenth of a second of sound");
+        terminal.say("no picture was written: it needs 0.1 s of sound or more");
         return Ok(ending);
     };
     let bytes = kind.bytes(figure, arguments.dpi.map_or(DOTS_PER_INCH, f64::from))?;

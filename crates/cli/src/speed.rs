@@ -68,8 +68,11 @@ fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], termi
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
     let count = records.iter().map(|record| record.rotors().len()).max().unwrap_or_default();
     if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
-        let what = format!("the number of rotors is not given; several are heard, and {count} were separated");
-        terminal.tip(&Notice::new(what, "give their number, such as --rotors 4; on a bench, --rotors 1"));
+        let what = format!("the number of rotors is not given: hovertone separated {count} rotors in the sound");
+        terminal.tip(&Notice::new(
+            what,
+            "give the number of rotors, as in --rotors 4; if one rotor runs alone, give --rotors 1",
+        ));
     }
 }
 
@@ -77,7 +80,10 @@ fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], termi
 pub(crate) fn called(arguments: &SpeedArguments, samples: Option<Samples>) -> Result<HeardJobs, Failure> {
     let mut plan = resolve(arguments)?;
     if samples.is_some() && plan.microphones.is_some() {
-        return Err(Failure::usage("--microphones hears a file, and this is an array", "write the array into a file"));
+        return Err(Failure::usage(
+            "--microphones needs a file, but the sound is an array in memory",
+            "write the array into an audio file, and give the file",
+        ));
     }
     in_memory(&mut plan.jobs, samples);
     let records = hear(&plan, arguments)?;

@@ -15,7 +15,10 @@ pub(crate) fn names_of(
         let numbers = (1..=rotors).map(|number| number.to_string()).collect::<Vec<_>>().join(",");
         let hint = match rotors as usize == places.len() {
             true => {
-                format!("name each rotor once, as in --spin-up {} or, by motors, --spin-up {numbers}", places.join(","))
+                format!(
+                    "name each rotor once, as in --spin-up {}, or by motor numbers, as in --spin-up {numbers}",
+                    places.join(",")
+                )
             }
             false => format!("for {rotors} rotors, give the numbers of the motors, as in --spin-up {numbers}"),
         };
@@ -37,7 +40,7 @@ pub(crate) fn names_of(
                 let is_unknown = |name: &&String| layouts.iter().all(|layout| number_in(layout, name).is_none());
                 let unknown = typed.iter().find(is_unknown).map_or_else(|| typed.join(","), String::clone);
                 return Err(refused(format!(
-                    "--spin-up names \"{unknown}\", and no frame has such a rotor together with the others"
+                    "--spin-up names \"{unknown}\", but no known frame has a rotor of this name beside the other rotors"
                 )));
             };
             (places(layout).iter().map(|place| place.replace('-', " ")).collect::<Vec<String>>(), numbers)
@@ -70,7 +73,7 @@ fn fault_of(order: &[usize], all: &[String], rotors: u32) -> String {
             missing.join(" and ")
         );
     }
-    format!("--spin-up names {} rotors, but {rotors} rotors turn (by --rotors or --vehicle)", order.len())
+    format!("--spin-up names {} rotors, but --rotors or --vehicle says that {rotors} rotors turn", order.len())
 }
 
 /// Names of the rotors of a frame as on the command line.
@@ -106,7 +109,11 @@ mod tests {
             other => panic!("{other:?}"),
         };
         let six = what("front-right,rear-left,front-left,rear-right", 6);
-        assert!(six.contains("names 4 rotors, but 6 rotors turn") && six.ends_with("--spin-up 1,2,3,4,5,6"), "{six}");
+        assert!(
+            six.contains("names 4 rotors, but --rotors or --vehicle says that 6 rotors turn")
+                && six.ends_with("--spin-up 1,2,3,4,5,6"),
+            "{six}"
+        );
         assert!(what("1,2,3", 4).contains("does not name motor 4"));
         assert!(what("1,2,3,3", 4).contains("it names motor 3 twice"));
         assert!(what("0,1,2,3", 4).contains("names motor 0, but the motors of 4 rotors are 1 to 4"));

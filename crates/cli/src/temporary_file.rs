@@ -169,7 +169,7 @@ mod interrupt {
     }
 
     fn cannot_remove(error: &io::Error, file: &Path) -> Failure {
-        let what = format!("the interrupt left this unfinished file, which cannot be removed: {error}");
-        Failure::failed(what, "remove it, or run the command again when you may write there", file)
+        let what = format!("the program was interrupted, and this unfinished file cannot be removed: {error}");
+        Failure::failed(what, "remove the file; if you have no right to do so, ask the owner of the folder", file)
     }
 }

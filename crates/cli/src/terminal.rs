@@ -232,7 +232,7 @@ fn stdout_failure(error: io::Error) -> Failure {
         ErrorKind::BrokenPipe => Failure::StdoutClosed,
         _ => Failure::Failed {
             what: format!("cannot write to stdout: {error}"),
-            hint: "check where the output is redirected to".to_owned(),
+            hint: "check the file or program that gets the output (after > or |)".to_owned(),
             path: None,
         },
     }

@@ -49,7 +49,7 @@ impl<'a> TomlFile<'a> {
     /// The same file, refused where nothing is in it.
     pub(crate) fn with_content(self) -> Result<Self, Failure> {
         if self.text.trim().is_empty() {
-            let what = format!("this file is empty, and the {} is needed", self.kind);
+            let what = format!("this file is empty, but the {} is needed", self.kind);
             return Err(Failure::failed(what, self.see_example, self.path));
         }
         Ok(self)
@@ -69,7 +69,7 @@ impl<'a> TomlFile<'a> {
 /// The faulty line with a mark under the fault, and the nearest name for a misspelt one.
 fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     if let Some((found, hint)) = other_kind(file) {
-        return Failure::failed(format!("this is {found}, and the {} is needed", file.kind), hint, file.path);
+        return Failure::failed(format!("this is {found}, but the {} is needed", file.kind), hint, file.path);
     }
     let PlainFault { what, hint } = in_plain_words(error.message());
     let what = format!("the {} {what}", file.kind);
@@ -111,7 +111,7 @@ fn mass_of_load(error: &toml::de::Error, text: &str) -> Option<String> {
         }
         _ => "added_mass_kg".to_owned(),
     };
-    Some(format!("the mass of a load is what it adds to the vehicle: write {added}"))
+    Some(format!("for a load, write only the mass that it adds to the vehicle: {added}"))
 }
 
 /// What a file is instead, and its command: an experiment has loads, a scenario has manoeuvres.

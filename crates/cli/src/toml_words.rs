@@ -37,8 +37,8 @@ fn unknown_name(message: &str) -> Option<PlainFault> {
     let (name, known) = (quoted.next()?, quoted.collect::<Vec<_>>());
     let list = known.join(", ");
     let hint = match nearest(name, known) {
-        Some(nearest) => format!("did you mean \"{nearest}\"? Known here: {list}"),
-        None => format!("known here: {list}"),
+        Some(nearest) => format!("did you mean \"{nearest}\"? Possible here: {list}"),
+        None => format!("possible here: {list}"),
     };
     Some(PlainFault::new(format!("has an unknown {kind} \"{name}\""), hint))
 }
@@ -137,7 +137,7 @@ fn syntax(message: &str) -> Option<PlainFault> {
     is_more.then(|| {
         PlainFault::new(
             "has more than one key with one value on this line",
-            "decimals have a point, as 0.4; one key a line",
+            "write decimals with a point, as in 0.4, and one key on each line",
         )
     })
 }
@@ -150,7 +150,7 @@ mod tests {
     fn the_known_keys_are_read_from_the_parsers_message() {
         let key = in_plain_words("unknown field `mas_kg`, expected one of `mass_kg`, `rotors`");
         assert_eq!(key.what, "has an unknown key \"mas_kg\"");
-        assert!(key.hint.unwrap().contains("did you mean \"mass_kg\"? Known here: mass_kg, rotors"));
+        assert!(key.hint.unwrap().contains("did you mean \"mass_kg\"? Possible here: mass_kg, rotors"));
         let value = in_plain_words("unknown variant `hoover`, expected one of `hover`, `land`");
         assert_eq!(value.what, "has an unknown value \"hoover\"");
     }

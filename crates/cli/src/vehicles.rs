@@ -41,13 +41,13 @@ fn add(path: &Path, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let added = vehicles_in(&file)?;
     if added.is_empty() {
         let what = "this file has no vehicle".to_owned();
-        let hint = "`hovertone vehicles --help` shows one".to_owned();
+        let hint = "`hovertone vehicles --help` shows an example".to_owned();
         return Err(Failure::Usage { what, hint, path: Some(path.to_owned()) });
     }
     if let Some(known) = added.iter().find_map(|new| own_vehicles().ok()?.iter().find(|known| known.id == new.id)) {
         return Err(Failure::Usage {
             what: format!("you have a vehicle \"{}\" already: nothing was written", known.id),
-            hint: format!("remove [{}] from that file first, or give the new one another name", known.id),
+            hint: format!("remove [{}] from this file first, or give the new vehicle another name", known.id),
             path: Some(place),
         });
     }
@@ -96,7 +96,7 @@ pub(crate) fn preset(id: &str) -> Result<&'static Vehicle, Failure> {
 pub(crate) fn preset_hint(id: &str) -> String {
     let own = own_vehicles().unwrap_or_default();
     match nearest(id, presets().iter().chain(own).map(|vehicle| vehicle.id)) {
-        Some(name) => format!("did you mean \"{name}\"? `hovertone vehicles` lists all"),
-        None => "`hovertone vehicles` lists all; `hovertone vehicles --add FILE` adds your own".to_owned(),
+        Some(name) => format!("did you mean \"{name}\"? `hovertone vehicles` lists all vehicles"),
+        None => "`hovertone vehicles` lists all vehicles; `hovertone vehicles --add FILE` adds your own".to_owned(),
     }
 }

@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let losses: Vec<Notice> = flight.notes.iter().map(|words| loss_notice(words)).collect();
     terminal.counted_notes_and(&losses, &[record]);
     if record.speed().is_none() {
-        terminal.say("nothing is compared: the recording has no speed");
+        terminal.say("nothing was compared, because no speed was heard in the recording");
         return Ok(Ending::Incomplete);
     }
     let logged = LoggedSpeeds { time_s: &speeds.time_s, names: &speeds.names, speeds_rev_s: &speeds.values };

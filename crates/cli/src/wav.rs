@@ -28,7 +28,7 @@ impl WavFile {
             None => (32, Stored::Float),
         };
         let channels = u16::try_from(channels)
-            .map_err(|_| Failure::usage("too many microphones for a WAV file", "have at most 65535"))?;
+            .map_err(|_| Failure::usage("too many microphones for a WAV file", "use 65535 microphones or fewer"))?;
         let spec = WavSpec { channels, sample_rate, bits_per_sample, sample_format };
         let file = BufWriter::new(output.handle()?);
         let writer = WavWriter::new(file, spec).map_err(|error| cannot_write(error, output.place()))?;

@@ -44,8 +44,7 @@ struct Plan {
 const NO_MASS: &str = "no mass: no speed was heard\n";
 
 /// What stands above a mass that no one should use.
-const DOUBTFUL_MASS: &str =
-    "do not use this mass: the warnings say that the sound does not fit the rotors of this constant\n";
+const DOUBTFUL_MASS: &str = "do not use this mass: the warnings say that the sound does not fit the rotors with which the constant was measured\n";
 
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -97,13 +96,13 @@ fn refuse_different_loads(scale: &AcousticScale, hovers: &[HeardHover], names: &
     let Some(different) = scale.different_loads(hovers) else { return Ok(()) };
     let name = |index: usize| names.get(index).copied().unwrap_or_default();
     let what = format!(
-        "the recordings do not carry the same mass: {} has {:.0} g, {} has {:.0} g",
+        "the recordings do not have the same mass: {} has {:.0} g, {} has {:.0} g",
         name(different.light),
         1e3 * different.light_kg,
         name(different.heavy),
         1e3 * different.heavy_kg
     );
-    Err(Failure::usage(what, "weigh the recordings of each load in a command of their own"))
+    Err(Failure::usage(what, "run one command for the recordings of each load"))
 }
 
 fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
@@ -186,7 +185,7 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
     };
     let mass_kg = arguments.mass_kg.or_else(|| results?.mass_kg);
     if let (Some(std_kg), None) = (arguments.mass_std_kg, mass_kg) {
-        let what = format!("mass_std_kg = {std_kg} belongs to a mass of the vehicle, and none is given");
+        let what = format!("mass_std_kg = {std_kg} is the uncertainty of the vehicle's mass, but no mass is given");
         return Err(Failure::usage(what, "give --mass-kg too, or leave --mass-std-kg out"));
     }
     let mass_std_kg = arguments.mass_std_kg.unwrap_or(MASS_STD_KG);
@@ -255,12 +254,15 @@ fn rotors_of(
     if let (Some((said, flag)), Some(known)) = (said, of_results)
         && said != known
     {
-        let what = format!("the constant is that of a vehicle with {known} rotors, but {flag} means {said}");
-        return Err(Failure::usage(what, format!("leave {flag} out, or give the results of this vehicle")));
+        let what = format!("the constant was measured with {known} rotors, but {flag} says {said}");
+        return Err(Failure::usage(
+            what,
+            format!("leave {flag} out, or give --constant with the results of the right vehicle"),
+        ));
     }
     let rotor_count = said.map(|(said, _)| said).or(of_results);
     if rotor_count.is_none() && results.is_some() {
-        let what = "the constant is that of one rotor, and the number of rotors is not given";
+        let what = "the constant belongs to one rotor, but the number of rotors is not given";
         return Err(Failure::usage(what, "give --rotors, or --vehicle"));
     }
     Ok(rotor_count)
@@ -288,7 +290,7 @@ fn check_vehicle(said: &Vehicle, arguments: &WeighArguments, results: Option<&Id
                 "the constant was measured with the vehicle \"{}\", but --vehicle is \"{}\"",
                 measured.id, said.id
             );
-            Err(Failure::usage(what, "leave --vehicle out, or give the results of this vehicle"))
+            Err(Failure::usage(what, "leave --vehicle out, or give --constant with the results of this vehicle"))
         }
         None => Ok(()),
     }
@@ -300,11 +302,11 @@ fn results_contradict(said: &Vehicle, error: &WeighError) -> Failure {
         return Failure::usage(error.to_string(), error.hint());
     };
     let what = format!(
-        "--vehicle {} contradicts the results: their vehicle, {vehicle_kg} kg, hovers at {rev_s:.0} rev/s or more, but the rotors of \"{}\" turn \
-         at no more than {fastest_rev_s:.0} rev/s",
+        "--vehicle {} contradicts the results: the measured vehicle weighs {vehicle_kg} kg and hovers at {rev_s:.0} \
+         rev/s or more, but the rotors of \"{}\" turn at no more than {fastest_rev_s:.0} rev/s",
         said.id, said.id
     );
-    Failure::usage(what, "leave --vehicle out, or give the results of this vehicle")
+    Failure::usage(what, "leave --vehicle out, or give --constant with the results of this vehicle")
 }
 
 /// Checks the numbers of the arguments.
@@ -314,9 +316,13 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     }
     if let Some(constant_n_s2) = arguments.constant_n_s2.filter(|constant_n_s2| !CONSTANT_N_S2.contains(constant_n_s2))
     {
-        let what =
-            format!("constant_n_s2 = {constant_n_s2:e}, and no multirotor has a constant outside 1e-11 to 10 N s²");
-        return Err(Failure::usage(what, "give N/(rad/s)², of the whole vehicle; the AR.Drone has 2.83e-5"));
+        let what = format!(
+            "constant_n_s2 = {constant_n_s2:e}, but the constants of all multirotors are between 1e-11 and 10 N s²"
+        );
+        return Err(Failure::usage(
+            what,
+            "give the constant of the whole vehicle in N/(rad/s)²; the AR.Drone has 2.83e-5",
+        ));
     }
     let of_mass = KnownRotor { mass_kg: arguments.mass_kg, ..KnownRotor::default() };
     of_mass.check().map_err(|error| Failure::usage(error.to_string(), "masses are in kilograms"))?;
@@ -334,16 +340,18 @@ fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
     let refuse = |name: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
         let what = format!(
-            "{name} = {std} is too large: the number itself is {}, and its ± (k = 2) must be smaller",
+            "{name} = {std} is too large: two times this uncertainty must be less than the number itself, {}",
             estimate.value
         );
         Err(Failure::usage(what, hint))
     };
     match (scale.thrust_constant_total_n_s2, scale.vehicle_mass_kg) {
         (constant, _) if is_swamped(&constant) => {
-            refuse("constant_std_n_s2", constant, "it is in N s², as the constant is: one percent of 2.8e-5 is 2.8e-7")
+            refuse("constant_std_n_s2", constant, "give it in N s², as the constant: one percent of 2.8e-5 is 2.8e-7")
         }
-        (_, Some(mass)) if is_swamped(&mass) => refuse("mass_std_kg", mass, "it is in kilograms: 0.5 g are 0.0005"),
+        (_, Some(mass)) if is_swamped(&mass) => {
+            refuse("mass_std_kg", mass, "give it in kilograms: for 0.5 g write 0.0005")
+        }
         _ => Ok(()),
     }
 }
@@ -383,8 +391,8 @@ fn check_order(said: Order, heard: &HeardTone) -> Result<(), Failure> {
         return Ok(());
     }
     let what = format!(
-        "the constant was measured with the tone of order {} (lines per turn), but the arguments mean {said}",
+        "the constant was measured with the tone of order {} (lines per turn), but the flags say {said}",
         heard.order
     );
-    Err(Failure::usage(what, "leave --order, --blades and --gear out: the results have them"))
+    Err(Failure::usage(what, "leave --order, --blades and --gear out: the results already have the order"))
 }

@@ -51,7 +51,8 @@ mod tests {
             NoTone::NotHeld { tone_hz: 160.0, held_s: 1.0 },
         ];
         let of_records = [
-            "give the band of the blade pass with --band LOW:HIGH; in flight, give the diameter of the propellers (--diameter-m), the mass (--mass-kg)",
+            "give the band around the tone of the blades with --band LOW:HIGH; in flight, give the diameter of the \
+            propellers (--diameter-m), the mass (--mass-kg)",
             "the number of rotors (--rotors)",
             "count the blades, and give --blades N too",
         ];

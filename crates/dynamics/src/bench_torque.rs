@@ -58,7 +58,8 @@ impl BenchTorque {
         match self {
             Self::Told { .. } => None,
             Self::NoTorque => Some(
-                "this log has no torque; log the torque of a test stand, or fly yaw manoeuvres and use `hovertone greybox`"
+                "this log has no torque; log the torque that a test stand measures, or fly yaw manoeuvres and use \
+                `hovertone greybox`"
                     .to_owned(),
             ),
             Self::SeveralMotors => {
@@ -71,7 +72,8 @@ impl BenchTorque {
                 Some("all commands of this log hold the same speed; hold different speeds for a second each".to_owned())
             }
             Self::SteadyTorque => Some(
-                "the torque does not change at all while a speed is held, so its uncertainty is not known; log the torque as it is measured"
+                "the torque does not change at all while a speed is held, so its uncertainty is not known; log each \
+                measured value of the torque, not a mean"
                     .to_owned(),
             ),
         }

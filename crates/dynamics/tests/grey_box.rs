@@ -151,7 +151,7 @@ fn what_a_flight_does_not_tell_is_said() {
     flown.log.measured[0] = None;
     flown.inputs = LoopInputs::from_log(&flown.log, &ControlKnowns::of(&flown.vehicle)).unwrap();
     let advice = advice_of(&fitted(&flown, "ardrone"), &flown.inputs);
-    assert!(advice.iter().any(|advice| advice.what.starts_with("the flight does not show roll")), "{advice:?}");
+    assert!(advice.iter().any(|advice| advice.what.starts_with("the control of roll is not known")), "{advice:?}");
     flown.log.measured = Default::default();
     let empty = LoopInputs::from_log(&flown.log, &ControlKnowns::of(&flown.vehicle)).unwrap();
     let none = grey_box_from_speeds(&[], &empty, &start_of("ardrone"), &GreyBoxConfig::default());

@@ -42,7 +42,8 @@ impl CsvError {
             Self::NoTable(what) => what.hint(),
             Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::RaggedRow { .. } => {
-                "complete or remove the row; where commas are decimal, separate the cells by semicolons: 3,5 is two cells"
+                "complete or remove the row; if the decimal sign is a comma, separate the cells by semicolons: 3,5 is \
+                read as two cells"
             }
             Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
                 "in this table the decimal sign is a comma: write thousands without a point, as 1000"

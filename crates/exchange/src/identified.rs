@@ -140,8 +140,8 @@ pub(crate) fn json_fault(error: &serde_json::Error) -> String {
     match (error.classify(), error.line(), error.column()) {
         (Category::Eof, 1, 0) => "the file is empty".to_owned(),
         (Category::Eof, line, _) => format!("the file ends too early, on line {line}"),
-        (Category::Data, ..) => "a value is missing or has another type".to_owned(),
-        (_, line, column) => format!("it has a fault in line {line}, column {column}"),
+        (Category::Data, ..) => "a value in it is missing or has another type".to_owned(),
+        (_, line, column) => format!("it is not valid JSON in line {line}, column {column}"),
     }
 }
 

@@ -57,13 +57,13 @@ pub enum LogError {
         cell: String,
     },
     /// No column with times.
-    #[error("no column has a name for the time with its unit; the columns are: {columns}")]
+    #[error("no header names the time and its unit; the columns are: {columns}")]
     NoTime {
         /// The headers.
         columns: String,
     },
     /// No column about rotors.
-    #[error("no column is a motor or a body rate; the columns are: {columns}")]
+    #[error("no header names a motor or a body rate (turning rate of the vehicle); the columns are: {columns}")]
     NoSignal {
         /// The headers.
         columns: String,
@@ -156,7 +156,9 @@ impl LogError {
             Self::UnknownFormat => {
                 "export the log as CSV with a header, or give PX4's .ulg, ArduPilot's .bin or Betaflight's .bbl"
             }
-            Self::WithoutData { .. } => "download the log from the vehicle again, or give that of the same flight",
+            Self::WithoutData { .. } => {
+                "download the log from the vehicle again, or give another log of the same flight"
+            }
             Self::WithoutSignal { format: LogFormat::Ulog, .. } => {
                 "let PX4 log esc_status, actuator_motors, actuator_outputs or vehicle_angular_velocity (SDLOG_PROFILE)"
             }
@@ -172,25 +174,30 @@ impl LogError {
             Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
                 "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }
-            Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
-            Self::NoTime { .. } => "rename the header of the times, as in time_s or timestamp_us",
+            Self::NotANumber { .. } => "correct the cell, or leave it empty: an empty cell is a gap",
+            Self::NoTime { .. } => {
+                "rename the header of the time column, for example to time_s, or to timestamp_us for microseconds"
+            }
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"
             }
             Self::Twice { .. } => "remove one of the columns",
-            Self::NotInOrder { .. } => "sort the log by its time, and give the log of one flight",
+            Self::NotInOrder { .. } => {
+                "sort the rows by their time; if the log has several flights, give the log of one"
+            }
             Self::LongRow { .. } => {
-                "correct or remove the row; where commas are decimal, separate the cells by semicolons: 3,5 is two cells"
+                "correct or remove the row; if the decimal sign is a comma, separate the cells by semicolons: 3,5 is \
+                read as two cells"
             }
-            Self::NoSuchColumn { .. } => "copy the header as the file has it",
+            Self::NoSuchColumn { .. } => "copy the header exactly from the file",
             Self::NameWithoutMeaning { .. } => {
-                "name it as time_s, rotor1_rpm, motor1_pwm or gyro_x_rad_s (docs/logs.md)"
+                "give a name such as time_s, rotor1_rpm, motor1_pwm or gyro_x_rad_s (docs/logs.md)"
             }
-            Self::NoColumns { .. } => "leave --column out: it is for CSV",
+            Self::NoColumns { .. } => "leave --column out: it names columns of CSV files only",
             Self::NoSuchSignal { .. } => {
                 "`hovertone log FILE --signals` lists all signals; copy a name from there, with its table"
             }
-            Self::SeveralTables { .. } => "write the signals of each table into a file of their own",
+            Self::SeveralTables { .. } => "give the signals of one table; run the command again for the other table",
         }
     }
 }

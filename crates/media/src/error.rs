@@ -19,7 +19,10 @@ pub enum MediaError {
     AtAddress(String),
 
     /// A directory, pipe or device.
-    #[error("this is a pipe or a device, and the sound is read more than once; give a file on disk, or - for stdin")]
+    #[error(
+        "this is a pipe or a device, but hovertone reads the sound more than once; give a file on disk, or - for the \
+        standard input"
+    )]
     NotAFile,
 
     /// An empty file.
@@ -138,18 +141,18 @@ pub enum MediaError {
     },
 
     /// An array without a sample.
-    #[error("the array has no sample: there is nothing to hear; give the samples of a recording")]
+    #[error("the array has no audio samples: there is nothing to hear; give the audio samples of a recording")]
     NoSampleInArray,
 
     /// An array whose rate is none.
-    #[error("rate_hz = {rate_hz}, and it must be 1 or more; give the samples per second")]
+    #[error("rate_hz = {rate_hz}, and it must be 1 or more; give the number of audio samples per second")]
     RateOfArray {
         /// The rate.
         rate_hz: f64,
     },
 
     /// Reading the disk failed.
-    #[error("the file could not be read on: {0}; check the disk or the connection")]
+    #[error("the file could not be read to its end: {0}; check the disk or the connection")]
     Read(#[source] io::Error),
 }
 
@@ -179,8 +182,7 @@ fn why_not_opened(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
         io::ErrorKind::PermissionDenied => {
-            "you have no right to read it, or to open its folder; ask its owner for the right to read it, or copy it to a folder of your \
-            own"
+            "you have no right to read it, or to open its folder; ask the owner for the right to read it, or for a copy"
                 .to_owned()
         }
         _ => format!("{error}; check the file and its disk"),

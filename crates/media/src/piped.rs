@@ -86,7 +86,7 @@ fn stream_fault_in_words(error: &SymphoniaError) -> String {
         SymphoniaError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             "it ended before any sound".to_owned()
         }
-        SymphoniaError::Unsupported(_) => "its beginning matches no such format".to_owned(),
+        SymphoniaError::Unsupported(_) => "its first bytes match none of these formats".to_owned(),
         error => damage_in_words(error).to_owned(),
     }
 }

@@ -259,7 +259,7 @@ impl Recording {
                 MediaError::FfmpegFailed { container, codec: self.plan.codec.clone(), message: message.clone() }
             }
             (Route::Memory(_), _) => MediaError::NoSampleInArray,
-            _ => MediaError::NoSamples { container, why: "its header is followed by no sample".to_owned() },
+            _ => MediaError::NoSamples { container, why: "no sound follows its header".to_owned() },
         }
     }
 

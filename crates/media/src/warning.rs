@@ -93,18 +93,19 @@ impl MediaWarning {
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::WrongExtension { .. } => "rename the file, or leave it: the extension is not used",
+            Self::WrongExtension { .. } => "you need to do nothing: hovertone does not use the extension",
             Self::Truncated { .. } => "copy the file again from the camera or recorder to have all of it",
             Self::WrongDataSize { .. } => {
-                "the recorder probably stopped without closing the file, or wrote to a pipe; nothing was lost"
+                "you need to do nothing, nothing was lost: the recorder probably stopped without closing the file, or \
+                wrote to a pipe"
             }
-            Self::CorruptPackets { .. } => "leave the damaged part out, or copy the file again",
+            Self::CorruptPackets { .. } => "copy the file again, or choose a part without damage with --from and --to",
             Self::NonFiniteSamples { .. } => {
                 "check the program that wrote the file; the hover needs a part without such errors"
             }
             Self::Overdriven { .. } => "record again with less gain, or from further away",
             Self::ChannelsCancel { .. } => "use one channel: --channel 1",
-            Self::SeveralAudioTracks { .. } => "choose another with --audio-track N",
+            Self::SeveralAudioTracks { .. } => "to hear another audio track, give --audio-track N",
             Self::HalfRateAac { .. } => {
                 "tones above half of this sample rate are missing; if you need them, record as AAC-LC or PCM"
             }
@@ -127,7 +128,11 @@ impl fmt::Display for MediaWarning {
                 write!(f, "the file ends in the middle of its sound: {decoded_s:.3} s could be decoded")
             }
             Self::WrongDataSize { declared_bytes, actual_bytes } => {
-                write!(f, "the header says {declared_bytes} bytes of sound, and the file holds {actual_bytes}")
+                write!(
+                    f,
+                    "the header of the file says {declared_bytes} bytes of sound, but the file holds {actual_bytes} \
+                    bytes of sound"
+                )
             }
             Self::CorruptPackets { count, silence_s } => {
                 write!(f, "{count} damaged pieces of sound were replaced by {silence_s:.3} s of silence")

@@ -52,7 +52,7 @@ def test_channels_and_strides():
         (np.zeros(9), None, hovertone.WrongUseError, "give rate_hz, the samples per second"),
         (np.zeros(9), 0, hovertone.FileError, "array: rate_hz = 0, and it must be 1 or more"),
         (np.zeros(9), float("nan"), hovertone.FileError, "rate_hz = NaN"),
-        (np.zeros(0), 8000, hovertone.FileError, "the array has no sample"),
+        (np.zeros(0), 8000, hovertone.FileError, "the array has no audio samples"),
         (np.zeros((2, 9000)), 8000, hovertone.WrongUseError, "frames come first: give samples.T"),
         (np.zeros((2, 2, 2)), 8000, hovertone.WrongUseError, "this array has 3"),
         (np.zeros(9, complex), 8000, TypeError, "float32, float64, int16 or int32"),

@@ -132,13 +132,13 @@ def test_clusters_read_addresses(bucket, archive):
 
 def test_what_is_not_there_is_one_clear_line(bucket, program):
     for words, code, told in [
-        ([f"s3://{BUCKET}/nothing"], 1, "no recording is at this address"),
+        ([f"s3://{BUCKET}/nothing"], 1, "there are no recordings at this address"),
         (["s3://no-such-bucket/archive"], 1, "nothing is at this address"),
-        (["az://container/archive"], 1, "the variables of the store cannot be used: Account must be specified"),
+        (["az://container/archive"], 1, "the environment variables of the store cannot be used: Account must be specified"),
         (["ftp://host/archive"], 2, "this is no address in a store"),
         (["s3://"], 2, "names no bucket"),
         (["https://name:word@host/a.wav"], 2, "an address may not contain a password"),
-        (["https://host/a.wav?key=1"], 2, "may have no query"),
+        (["https://host/a.wav?key=1"], 2, "may not end with a query"),
     ]:
         run = program("batch", *words, "-o", "out", *FLAGS)
         assert run.returncode == code and told in run.stderr, (words, run.returncode, run.stderr)
@@ -238,7 +238,7 @@ def test_a_faulty_server_is_asked_again_or_told_in_the_row(faulty, archive, prog
         row = found.loc[f"{faulty}/{name}/flight.wav"]
         if name in ("broken", "always_cut"):
             assert (row["status"], row["error_class"]) == ("error", "unreadable"), name
-            assert ("503" if name == "broken" else "sent less than was asked for") in row["reason"], row["reason"]
+            assert ("503" if name == "broken" else "sent fewer bytes than hovertone asked for") in row["reason"], row["reason"]
         else:
             assert row["status"] == "ok" and row["speed_rev_s"] == expected["speed_rev_s"], name
             assert row["recording"]["sha256"] == expected["recording"]["sha256"], name

@@ -43,7 +43,7 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
         with_uncertainty(unit.scale(constant.value), std)
     };
     let mut text = TextTable::new(vec![
-        Column::words("law (± is k = 2, of the fit alone)"),
+        Column::words("law (± of the fit alone, k = 2)"),
         Column::numbers("C_f", &unit.unit(CONSTANT_UNIT)),
         Column::numbers("F₀", "N"),
         Column::numbers("exponent", ""),

@@ -109,7 +109,7 @@ fn odds(share: f64) -> String {
 
 fn runner_up_in_words(second: Option<&Weighed>) -> String {
     let Some(&Weighed { speed_rev_s, plausibility }) = second else {
-        return "none: no other speed explains the lines".to_owned();
+        return "none: no other speed explains the sound".to_owned();
     };
     let speed = format!("{} rev/s", significant(speed_rev_s, DIGITS));
     if plausibility < 0.001 {
@@ -144,6 +144,6 @@ mod tests {
         assert_eq!(odds_in_words(Some(&first), false), "odds 49 : 1");
         assert_eq!(odds_in_words(Some(&first), true), "not decided: 60.20 rev/s, odds 49 : 1");
         assert_eq!(runner_up_in_words(Some(&second)), "120.4 rev/s (2.0 %)");
-        assert_eq!(runner_up_in_words(None), "none: no other speed explains the lines");
+        assert_eq!(runner_up_in_words(None), "none: no other speed explains the sound");
     }
 }

@@ -34,13 +34,16 @@ impl FlightLogRecord {
     /// The warnings that follow: an order check that failed or is not decided, or a log that cannot be compared.
     pub fn notices(&self) -> Vec<Notice> {
         let failed = self.verification.as_ref().and_then(failed_check).map(|Notice { text, hint, .. }| {
-            Notice::new(format!("the order check against {} failed: {text}", self.file), hint)
+            Notice::new(format!("the speeds in {} do not fit the sound: {text}", self.file), hint)
         });
         let undecided = self.verification.as_ref().and_then(undecided_check).map(|Notice { text, hint, .. }| {
-            Notice::new(format!("the order check against {} is not decided: {text}", self.file), hint)
+            Notice::new(
+                format!("it is not certain that {} is of the same flight as the sound: {text}", self.file),
+                hint,
+            )
         });
         let not_compared = self.not_verified.as_ref().map(|Notice { text, hint, .. }| {
-            Notice::new(format!("no order check against {}: {text}", self.file), hint.clone())
+            Notice::new(format!("the sound was not compared with {}: {text}", self.file), hint.clone())
         });
         failed.into_iter().chain(undecided).chain(not_compared).collect()
     }

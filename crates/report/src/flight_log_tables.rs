@@ -21,7 +21,7 @@ pub fn flight_log_tables(inputs: &[InputRecord], names: &[String]) -> Vec<Titled
         return Vec::new();
     }
     vec![
-        TitledTable::new("Order check: sound against telemetry", checks_table(&logged)),
+        TitledTable::new("Speed check: sound against flight log", checks_table(&logged)),
         TitledTable::new("Heard rotors and the motors of the log", rotors_table(&logged)),
         TitledTable::new("Motors, from the steps in the logs", motors_table(&logged)),
     ]
@@ -42,7 +42,7 @@ fn checks_table(logged: &[Logged<'_>]) -> TextTable {
         Column::numbers("offset of the log", "s"),
         Column::numbers("drift of the clocks", "1e-6"),
         Column::numbers("heard over logged", ""),
-        Column::words("order check"),
+        Column::words("speed check"),
     ]);
     for Logged { load, name, log } in logged {
         let found = log.verification.as_ref();
@@ -101,9 +101,7 @@ fn rotors_table(logged: &[Logged<'_>]) -> TextTable {
         if let Some(reason) = log.reason_of_labels() {
             shown.push_words(
                 (*name).to_owned(),
-                format!(
-                    "where no probability is given, the name is that of the motor with the nearest speed: {reason}"
-                ),
+                format!("a rotor without a probability has the name of the motor with the nearest speed: {reason}"),
             );
         }
     }

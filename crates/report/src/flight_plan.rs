@@ -29,12 +29,13 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     let separated = match plan.largest {
         BudgetInput::LoudestRotor => {
-            "\nThis assumes that the rotors cannot be separated. If `hovertone speed` separates yours, add --rotors-separated."
+            "\nThis assumes that the rotors cannot be separated. If `hovertone speed` separates your rotors, add \
+            --rotors-separated."
         }
         _ => "",
     };
     format!(
-        "{} loads (add {}), {} trials of each, {:.0} s of hover in each trial: {:.1} minutes of hover\n\
+        "{} loads (add {}), {} recordings of each, {:.0} s of hover in each recording: {:.1} minutes of hover\n\
          Expected: C_f ± {} % (k = 2). The largest part of this ± comes from: {}.{separated}\n{intercept}\n",
         plan.load_count,
         added.join(", "),

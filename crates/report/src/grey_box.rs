@@ -118,8 +118,11 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     let axes: Vec<&str> = Axis::ALL.into_iter().filter(is_negative).map(Axis::in_words).collect();
     let gains = (!axes.is_empty()).then(|| {
         let (gains, are) = if axes.len() > 1 { ("gains", "are") } else { ("gain", "is") };
-        let what =
-            format!("the {gains} k_p of {} {are} negative (the command answers an error in the wrong direction), and no vehicle can fly so", axes.join(" and "));
+        let what = format!(
+            "the {gains} k_p of {} {are} negative (the command answers an error in the wrong direction), and no \
+            vehicle can fly with negative gains",
+            axes.join(" and ")
+        );
         Notice::new(what, "check --log-axes, and the signs of the log's columns")
     });
     let better = record.better.map(Warning::FitsElsewhere);
@@ -131,7 +134,11 @@ fn moved_in_words(log: &str, moved_s: f64) -> Option<String> {
     let by = if moved_s < 0.0 { "earlier" } else { "later" };
     let is_moved = moved_s != 0.0;
     is_moved.then(|| {
-        format!("the clock of {} was set {:.2} s {by}: there, the sound follows the log", printable(log), moved_s.abs())
+        format!(
+            "the clock of {} was set {:.2} s {by}, where the log fits the sound best",
+            printable(log),
+            moved_s.abs()
+        )
     })
 }
 

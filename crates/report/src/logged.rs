@@ -28,7 +28,7 @@ pub fn log_text(file: &str, log: &LogSummary, has_names: bool, width: Option<usi
     }
     text += &format!("\n{}", table_text(&tables_table(log), width));
     if has_names {
-        text += "\nsignals, as --signal takes them\n";
+        text += "\nnames of the signals for --signal\n";
         text.extend(log.tables.iter().map(names_of));
     }
     text

@@ -96,7 +96,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     }
     if other_count > 0 {
         text += &format!(
-            "left out: {} of the speed that no first-order curve (an exponential approach) fits\n",
+            "left out: {} of the speed without an exponential approach to a new speed\n",
             counted(other_count, "change")
         );
     }
@@ -211,10 +211,10 @@ pub(crate) fn in_ms(estimate: Option<Estimate>) -> String {
 fn verdict_in_words(verdict: StepVerdict) -> &'static str {
     match verdict {
         StepVerdict::Used => "",
-        StepVerdict::TooSlowRows => "left out: too fast for the rows of the log",
+        StepVerdict::TooSlowRows => "left out: the log has too few rows for so fast a change",
         StepVerdict::Saturated => "left out: the speed no longer follows the command (saturated)",
         StepVerdict::AtRest => "left out: the motor starts or stops",
-        StepVerdict::OtherCurve => "left out: not a first-order curve",
+        StepVerdict::OtherCurve => "left out: not an exponential approach to the new speed",
         StepVerdict::Uncertain => "left out: too uncertain",
     }
 }
@@ -252,10 +252,12 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
     if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
-        text += "gain: change of the settled speed per unit of the command; it holds only between the smallest and the largest of these commands\n";
+        text += "gain: change of the steady speed per unit of the command; it holds only between the smallest and the \
+        largest of these commands\n";
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "no command is held, so the gain comes from all log rows; the motor follows late, so this gain is too small\n";
+        text += "no command is held for long, so the gain comes from all log rows. The motor follows each command \
+        late, so this gain is too small\n";
     }
     if maps().any(|map| !map.points.is_empty()) {
         text += &format!("\n{}", table_text(&plateaus_table(record), width));
@@ -271,7 +273,8 @@ fn torque_text(torque: &BenchTorque) -> String {
         BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
             let offset = significant(*offset_n_m, 2);
             let how = format!(
-                " (± is k = 2, of the fit alone), by the torque at {level_count} settled speeds; at rest the torque is {offset} N m"
+                " (± of the fit alone, k = 2), from the torque at {level_count} steady speeds; at rest the torque is \
+                {offset} N m"
             );
             Ok((*constant_n_m_s2, how))
         }
@@ -320,7 +323,7 @@ fn plateaus_table(record: &MotorRecord) -> TextTable {
     let mut shown = TextTable::new(vec![
         Column::words("motor"),
         Column::numbers("command", ""),
-        Column::numbers("settled speed", "rev/s"),
+        Column::numbers("steady speed", "rev/s"),
         Column::words("note"),
     ]);
     for motor in &record.motors {

@@ -66,8 +66,8 @@ impl Verdict {
     }
 }
 
-/// "C_f = (7.09 ± 0.03) 1e-6 N s² for one rotor, (2.836 ± 0.012) 1e-5 N s² for the whole vehicle; ± is 0.42 %, with k = 2"; `None` without a
-/// constant.
+/// "C_f = (7.09 ± 0.03) 1e-6 N s² for one rotor, (2.836 ± 0.012) 1e-5 N s² for the whole vehicle; ± is 0.42 % (k = 2: about 95 of 100 true
+/// values lie within it)"; `None` without a constant.
 pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
     let (total, per_rotor) = (table.thrust_constant_total_n_s2?, table.thrust_constant_per_rotor_n_s2?);
     let vehicle = match table.rotor_count {
@@ -75,9 +75,9 @@ pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
         _ => format!(", {} for the whole vehicle", quoted(total)),
     };
     let share = total.std_uncertainty.map(|std| 100.0 * COVERAGE_FACTOR * std / total.value);
-    let flights = if table.has_one_trial() { WITHOUT_FLIGHTS } else { "" };
+    let covers = if table.has_one_trial() { WITHOUT_FLIGHTS } else { ": about 95 of 100 true values lie within it" };
     let meaning = share.map_or("; ± is not known".to_owned(), |percent| {
-        format!("; ± is {percent:.2} %, with k = {COVERAGE_FACTOR}{flights}")
+        format!("; ± is {percent:.2} % (k = {COVERAGE_FACTOR}{covers})")
     });
     Some(format!("C_f = {} for one rotor{vehicle}{meaning}", quoted(per_rotor)))
 }

@@ -269,7 +269,8 @@ impl SpeedRecord {
             Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() && !self.given_facts().mass => {
                 let band = if self.given_facts().band { "a narrower --band" } else { "--band LOW:HIGH" };
                 Some(format!(
-                    "several rotor speeds explain this sound; on a bench, give the band of the blade pass with {band}; in flight, give {}",
+                    "several rotor speeds explain this sound; on a bench, give the band around the tone of the blades \
+                    with {band}; in flight, give {}",
                     self.missing_facts()
                 ))
             }
@@ -306,14 +307,15 @@ impl SpeedRecord {
         let order = self.order.lines_per_turn();
         let NoTone::NoSeries { only_rev_s, instead: None } = reason else { return None };
         let range = only_rev_s.map_or_else(String::new, |(low, high)| {
-            format!(" at {:.0} to {:.0} Hz, as of {low:.0} to {high:.0} rev/s", order * low, order * high)
+            format!(" at {:.0} to {:.0} Hz, where {low:.0} to {high:.0} rev/s would sound", order * low, order * high)
         });
         let given = self.given_facts();
         let (replaced, given) = (GivenFacts { blades: false, ..given }.in_words("and"), given.in_words("and"));
         (order > BLADES_MAX).then(|| {
             format!(
-                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades N alone, in place of \
-                 {replaced}; if they have one, check {given}, or go nearer"
+                "the tone of the gear ({order} times the rotor speed) is not heard{range}; if the rotors have no \
+                gear, give --blades N alone, in place of {replaced}; if they have one, check {given}, or move the \
+                microphone nearer"
             )
         })
     }

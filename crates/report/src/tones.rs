@@ -89,7 +89,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         let kind = match family.remark {
             Some(remark @ (Remark::NearMains | Remark::GearMesh)) => remark.text(),
             _ if is_near && possible_readings(family).next().is_some() => {
-                "another rotor, or this one at a changing speed"
+                "another rotor, or the same rotor at a changing speed"
             }
             Some(remark) => remark.text(),
             None if rotor.is_none() => "a tone, but probably no rotor",

@@ -50,16 +50,16 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
         ]);
     }
     let offset = if found.is_offset_told {
-        format!("offset of the log {} s: time to be added to its clock\n", signed(found.offset_s, 3))
+        format!("offset of the log: {} s, the time to add to the clock of the log\n", signed(found.offset_s, 3))
     } else {
         format!(
             "offset of the log: not known, because other offsets fit nearly as well ({} s is used)\n",
             signed(found.offset_s, 1)
         )
     };
-    let rate = found
-        .clock_rate_share
-        .map_or(String::new(), |share| format!("the clocks drift by {} millionths\n", signed(share * PPM, 0)));
+    let rate = found.clock_rate_share.map_or(String::new(), |share| {
+        format!("the clocks of log and recording drift apart by {} millionths\n", signed(share * PPM, 0))
+    });
     format!(
         "{} against {}\n{}\n{offset}{rate}{}\n",
         printable(&record.file),
@@ -87,7 +87,8 @@ fn verdict_in_words(found: &Verification) -> String {
     // order and clock are judged apart from the ±
     let small = small_plus_minus(found).map_or(String::new(), |notice| format!("\n±: not passed; {}", notice.text));
     format!(
-        "passed: order and clock are right; the mean of the heard speeds differs from the log by {percent} %{small}"
+        "passed: the order of the tone (blades or gear) and the clock are right; the mean of the heard speeds differs \
+        from the log by {percent} %{small}"
     )
 }
 
@@ -124,12 +125,14 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
     match found.near_ratio {
         _ if found.is_right() => None,
         Some(ratio) => Some(Notice::new(
-            format!("heard speeds are {} times the logged ones", significant(ratio, 3)),
-            "check the number of blades or the order of the tone; check the number of pole pairs in the ESC's settings; check that the log is of this flight",
+            format!("the heard speeds are {} times the logged speeds", significant(ratio, 3)),
+            "check the number of blades or the gear (the order of the tone); check the number of pole pairs in the \
+            ESC's settings; check that the log is of this flight",
         )),
         None => Some(Notice::new(
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
-            "check the order of the tone and the clock of the recorder, and that the log is of this flight",
+            "check the number of blades or the gear (the order of the tone) and the clock of the recorder; check that \
+            the log is of this flight",
         )),
     }
 }
@@ -288,12 +291,15 @@ mod tests {
     #[test]
     fn a_small_plus_minus_is_no_silent_pass() {
         let verdict = |coverage, agreement| verdict_in_words(&verified(coverage, agreement));
-        assert!(verdict(0.95, Agreement::AsStated).starts_with("passed: order and clock are right"));
+        assert!(
+            verdict(0.95, Agreement::AsStated)
+                .starts_with("passed: the order of the tone (blades or gear) and the clock are right")
+        );
         for (agreement, word) in
             [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]
         {
             let words = verdict(0.59, agreement);
-            assert!(words.starts_with("passed: order and clock") && words.contains("\n±: not passed"), "{words}");
+            assert!(words.starts_with("passed: the order of the tone") && words.contains("\n±: not passed"), "{words}");
             assert!(words.contains(word) && words.contains("only 59 % of the logged speeds"), "{words}");
             assert!(small_plus_minus(&verified(0.59, agreement)).is_some());
         }

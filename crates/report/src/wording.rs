@@ -28,7 +28,8 @@ impl Wording {
             ),
             (
                 "if fewer rotors turn, give their number with --rotors",
-                "if fewer rotors turn, write in the experiment file, under [vehicle], rotors = N (of a bench, rotors_running = N under its [[load]])",
+                "if fewer rotors turn, write in the experiment file, under [vehicle], rotors = N (on a bench, \
+                rotors_running = N under [[load]])",
             ),
             ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
             ("give --blades N", "write blades = N under [vehicle]"),

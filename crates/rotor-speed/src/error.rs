@@ -32,8 +32,8 @@ pub enum Error {
     },
     /// A tone that no rotor could make low enough for the recording.
     #[error(
-        "a tone of order {order} cannot be heard: a recording with a sample rate of {sample_rate_hz:.0} Hz has no sound above {:.0} Hz; \
-        record at a higher sample rate, or follow a lower tone",
+        "a tone at {order} times the rotor speed cannot be heard: a recording with a sample rate of \
+        {sample_rate_hz:.0} Hz has no sound above {:.0} Hz; record at a higher sample rate, or follow a lower tone",
         sample_rate_hz / 2.0
     )]
     ToneAboveNyquist {

@@ -56,7 +56,7 @@ impl Address {
             return Err(bad("an address may not contain a password, because addresses are written into the results"));
         }
         if service == Service::Web && name.contains(['?', '#']) {
-            return Err(bad("the address of a web server may have no query (? and more) after the name"));
+            return Err(bad("the address of a web server may not end with a query (a ? and text after it)"));
         }
         let is_folder = name.is_empty() || name.ends_with('/');
         let name = name.strip_suffix('/').unwrap_or(name);

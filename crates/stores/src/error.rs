@@ -19,13 +19,13 @@ pub enum StoreError {
     #[error("nothing is at this address")]
     NotFound,
     /// The store asks for other credentials.
-    #[error("the store refuses access: it asks for credentials, and the environment has none or the wrong ones")]
+    #[error("the store refuses access: it asks for credentials, and the environment variables have none or wrong ones")]
     Refused,
     /// Variables of the environment that are missing or have no meaning.
-    #[error("the variables of the store cannot be used: {0}")]
+    #[error("the environment variables of the store cannot be used: {0}")]
     Settings(String),
     /// A server that gives whole files only.
-    #[error("the server gives whole files only, and recordings are read in parts")]
+    #[error("the server sends whole files only, but hovertone reads recordings in parts")]
     WholeFilesOnly,
     /// A server that lists no folders.
     #[error("the server does not list folders")]
@@ -37,7 +37,7 @@ pub enum StoreError {
     #[error("the store did not answer in time")]
     TooSlow,
     /// Fewer bytes than were asked for, after all attempts.
-    #[error("the store sent less than was asked for")]
+    #[error("the store sent fewer bytes than hovertone asked for")]
     CutShort,
     /// Another file has taken its place.
     #[error("the file changed while it was read")]
@@ -58,9 +58,11 @@ impl StoreError {
                 "write it as s3://BUCKET/FOLDER, gs://BUCKET/FOLDER, az://CONTAINER/FOLDER or https://HOST/FILE"
             }
             Self::NotFound => "check the name",
-            Self::Refused | Self::Settings(_) => "set the variables of the store, as docs/batch.md names them",
+            Self::Refused | Self::Settings(_) => {
+                "set the environment variables of the store (docs/batch.md lists them)"
+            }
             Self::WholeFilesOnly => "copy the recordings to a disk",
-            Self::ListsNothing => "give the address of a recording, or of a list that ends in .txt",
+            Self::ListsNothing => "give the address of a recording, or of a list of recordings whose name ends in .txt",
             Self::Changed => "run the same command again",
             _ => "check the connection and the store, and run the same command again",
         }

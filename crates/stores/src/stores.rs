@@ -40,7 +40,8 @@ impl Stores {
         // fails where a program has chosen already, and then that holds
         let _ = rustls::crypto::ring::default_provider().install_default();
         let built = Builder::new_multi_thread().worker_threads(CARRIERS).enable_all().build();
-        let runtime = built.map_err(|error| StoreError::Other(format!("the system gives no thread: {error}")))?;
+        let runtime =
+            built.map_err(|error| StoreError::Other(format!("the system could not start a thread: {error}")))?;
         Ok(Self { runtime: Arc::new(runtime), patience, opened: Mutex::default() })
     }
 

@@ -187,12 +187,12 @@ fn what_a_server_withholds_is_an_error_and_never_an_end() {
             TAGGED,
         ),
         (
-            "sent less than was asked for",
+            "sent fewer bytes than hovertone asked for",
             |_, range| if range.start < BROKEN_FROM { Answer::Good } else { Answer::Cut },
             UNTAGGED,
         ),
         (
-            "sent less than was asked for",
+            "sent fewer bytes than hovertone asked for",
             |_, range| if range.start < BROKEN_FROM { Answer::Good } else { Answer::Cut },
             TAGGED,
         ),
@@ -201,7 +201,7 @@ fn what_a_server_withholds_is_an_error_and_never_an_end() {
             |_, range| if range.start < BROKEN_FROM { Answer::Good } else { Answer::Silent },
             UNTAGGED,
         ),
-        ("gives whole files only", |_, _| Answer::WholeFile, TAGGED),
+        ("sends whole files only", |_, _| Answer::WholeFile, TAGGED),
         (
             "no usable answer",
             |_, range| if range.start < BROKEN_FROM { Answer::Good } else { Answer::OtherRange },

@@ -210,19 +210,19 @@ impl ThrustWarning {
             Self::LoadDoesNotFit { mass_that_fits_kg: None, is_left_out: false, .. } => {
                 "check the thrust and the recordings of that load"
             }
-            Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale, the propellers",
+            Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale and the propellers",
             Self::LoadsDisagree { has_added_mass, .. } => disagree_hint(*has_added_mass),
             Self::HeavierTurnedSlower { .. } => {
                 "do not use this constant: check whether two masses are exchanged, and which recording belongs to which load"
             }
             Self::TrialsInGroups { .. } => {
-                "if they were flown with different masses, give each mass a [[load]] of its own"
+                "if the recordings were flown with different masses, give each mass a [[load]] of its own"
             }
             Self::ConstantsDiffer { .. } => {
                 "do not use this constant: check masses, units and tone of both loads, and which recording belongs to which load"
             }
             Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
-                "check that it is under the right [[load]]; if it is, look at it with `hovertone speed`"
+                "check that each recording is under the right [[load]]; if so, check it alone with `hovertone speed`"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
                 "do not use this constant: check the decimal point and the unit of the mass, and the name of the vehicle"
@@ -231,23 +231,23 @@ impl ThrustWarning {
                 "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
             }
             Self::VehicleDoesNotFit { .. } => {
-                "do not use this constant: check the vehicle, its blades and its gear; if they are right, record it again from nearer"
+                "do not use this constant: check the vehicle, its blades and its gear; if they are right, record again with the microphone nearer"
             }
             Self::RowsDoNotFit { .. } => {
                 "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another propeller"
             }
             Self::TrialLeftOut { .. } => {
-                "check it with `hovertone speed`: another harmonic or another machine may have been followed"
+                "check this recording with `hovertone speed`: the tone may come from another harmonic or another machine"
             }
-            Self::LoadDoesNotFit { is_left_out: true, .. } => "check its mass, its unit and its recordings",
+            Self::LoadDoesNotFit { is_left_out: true, .. } => "check the mass of this load, its unit and recordings",
             Self::ConstantsSplit => {
-                "do not use this constant: check the masses, units, rotors and the order of the tone, and measure one more load"
+                "do not use this constant: check the masses, their units, the number of rotors and the order of the tone (blades or gear), and measure one more load"
             }
             Self::MixedBenchAndHover => {
                 "at the same speed, a rotor has another thrust on a bench than in flight: put bench runs and hovers into two experiment files"
             }
             Self::SingleLoad => "measure a second load",
-            Self::OneRecordingEach { .. } => "record each load five times, if possible: land and start again between",
+            Self::OneRecordingEach { .. } => "record each load five times, if possible, and land in between",
             Self::EqualLoads { .. } => "measure masses as far apart as is safe: equal masses cannot test the law",
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
                 "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
@@ -260,10 +260,10 @@ impl ThrustWarning {
                 "neither time nor voltage changes the thrust at a given speed, so it is the stand that drifts: zero it between runs, let it warm up, and measure in a random sequence"
             }
             Self::ConstantDrifts(_) => {
-                "keep height and place, fly the loads in a random sequence, each with an equally full battery"
+                "fly all loads at the same height and place, in a random sequence, and each with an equally full battery"
             }
             Self::ImplausibleThrustCoefficient { .. } => {
-                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
+                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone (blades or gear)"
             }
             Self::ImplausibleFigureOfMerit { .. } => {
                 "rotors have 0.05 to 0.85: check the power (of all running rotors together), its unit, and the diameter"
@@ -273,7 +273,7 @@ impl ThrustWarning {
                 "weigh the vehicle ready to fly, and write mass_kg under [vehicle]: 1 % of error in the mass is 1 % in C_f, and the ± does not include it"
             }
             Self::LoudestRotor => {
-                "if their speeds differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
+                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
             }
         }
     }
@@ -350,7 +350,7 @@ impl fmt::Display for ThrustWarning {
                 the other recordings")
             }
             Self::ConstantsSplit => f.write_str(
-                "one half of the constants differs from the other half by a factor of two or more, and nothing shows which half is right",
+                "the constants C_f form two groups that differ by a factor of two or more, and nothing shows which group is right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),

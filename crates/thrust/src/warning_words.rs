@@ -15,12 +15,16 @@ const POINT_MARGIN: f64 = 1.5;
 
 /// Two loads whose constants differ by a share, of which the stated uncertainties of their forces explain another.
 pub(crate) fn differ_text([least, most]: [&String; 2], share: f64, stated_share: f64) -> String {
-    let words = format!("the constant of load \"{most}\" is {:.0} % larger than that of \"{least}\"", 100.0 * share);
+    let words = format!(
+        "the constant of load \"{most}\" is {:.0} % larger than the constant of load \"{least}\"",
+        100.0 * share
+    );
     match 100.0 * stated_share {
         small if small < 0.5 => words,
         percent => {
             format!(
-                "{words}; the stated uncertainties of the forces (k = {COVERAGE_FACTOR}) explain only {percent:.0} % of difference"
+                "{words}; the stated uncertainties of the forces (k = {COVERAGE_FACTOR}) explain a difference of only \
+                {percent:.0} %"
             )
         }
     }
@@ -49,7 +53,8 @@ pub(crate) fn range_text(range: &LoadRange) -> String {
     };
     let [ratio, needed] = compared([range.force_ratio, needed]);
     format!(
-        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, and {needed} times is needed"
+        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, but must be {needed} \
+        times the smallest or more"
     )
 }
 

@@ -37,7 +37,10 @@ pub enum Contradiction {
         said: Gear,
     },
     /// A tone that the vehicle does not have.
-    #[error("order = {said} (lines per turn), but the rotors of the vehicle \"{vehicle}\" have tones of order {known}")]
+    #[error(
+        "order = {said} means a tone at {said} times the rotor speed, but the tone of the vehicle \"{vehicle}\" is at \
+        {known} times the rotor speed"
+    )]
     Order {
         /// Name of the vehicle in files and flags.
         vehicle: &'static str,
@@ -48,8 +51,8 @@ pub enum Contradiction {
     },
     /// A band in which the tone cannot lie.
     #[error(
-        "band = {low_hz}:{high_hz} Hz: a tone of order {order} in this band means {:.1} to {:.1} rev/s, but the rotor is searched for from \
-        {rev_s_min:.1} to {rev_s_max:.1} rev/s",
+        "band = {low_hz}:{high_hz} Hz: a tone at {order} times the rotor speed in this band means {:.1} to {:.1} \
+        rev/s, but hovertone searches for the rotor from {rev_s_min:.1} to {rev_s_max:.1} rev/s",
         .low_hz / .order.lines_per_turn(), .high_hz / .order.lines_per_turn()
     )]
     Band {
@@ -66,7 +69,8 @@ pub enum Contradiction {
     },
     /// A small order that is neither that of the shaft nor a multiple of the blades.
     #[error(
-        "order = {order} and blades = {blades} exclude each other: propellers with {blades} blades make tones of order {blades} and its multiples"
+        "order = {order} and blades = {blades} exclude each other: propellers with {blades} blades make a tone at \
+        {blades} times the rotor speed, and its multiples"
     )]
     OrderOfBlades {
         /// The given order.
@@ -156,15 +160,15 @@ impl Contradiction {
             Self::Band { order, rev_s_min, rev_s_max, .. } => {
                 let edge_hz = |rev_s: f64| rev_s * order.lines_per_turn();
                 format!(
-                    "leave the band out, or give one within {:.0} to {:.0} Hz, where this tone can be; for another tone, also give its \
-                    order",
+                    "leave the band out, or give one within {:.0} to {:.0} Hz, where this tone can be; for another \
+                    tone, also give its order (the tone's frequency over the rotor speed)",
                     edge_hz(*rev_s_min),
                     edge_hz(*rev_s_max)
                 )
             }
             Self::Rotors { .. } => "leave out one of the two: in a hover, all rotors of the vehicle turn".to_owned(),
             Self::HeavyWithoutDiameter(mass_kg) => format!(
-                "masses are in kilograms: {mass_kg} g are {}; if the vehicle is this heavy, also give the diameter of its propellers",
+                "masses are in kilograms: for {mass_kg} g write {}; if the vehicle is this heavy, also give the diameter of its propellers",
                 mass_kg / 1e3
             ),
             Self::TooSmallToCarry { .. } | Self::TooLargeToCarry { .. } => {
@@ -173,7 +177,7 @@ impl Contradiction {
                     .to_owned()
             }
             Self::Mass { known_kg, said_kg, .. } if GRAMS_FACTOR.contains(&(said_kg / known_kg)) => {
-                format!("masses are in kilograms: {said_kg} g are {}", said_kg / 1e3)
+                format!("masses are in kilograms: for {said_kg} g write {}", said_kg / 1e3)
             }
             Self::Mass { .. } => "check the mass (in kilograms) and the name of the vehicle".to_owned(),
             Self::GearSwapped(gear) => {

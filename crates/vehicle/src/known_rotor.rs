@@ -135,7 +135,7 @@ mod tests {
         KnownRotor { rotor_count: None, ..with(0.02, 0.413) }.check_hover().unwrap();
         assert!(KnownRotor { rotor_count: None, ..with(0.005, 0.413) }.check_hover().is_err());
         let heavy = KnownRotor { diameter_m: None, ..with(0.2, 413.0) }.check_hover().unwrap_err();
-        assert!(heavy.hint().contains("413 g are 0.413"), "{}", heavy.hint());
+        assert!(heavy.hint().contains("for 413 g write 0.413"), "{}", heavy.hint());
         // 360 kg on eight propellers of 1.6 m: there are such vehicles
         KnownRotor { rotor_count: Some(8), ..with(1.6, 360.0) }.check_hover().unwrap();
     }

@@ -198,7 +198,7 @@ mod tests {
             Err(Contradiction::Rotors { vehicle: "ardrone", known: 4, said: 2 })
         );
         let grams = vehicle.check_said(&of(None, Some(413.0))).unwrap_err();
-        assert!(grams.hint().ends_with("413 g are 0.413"), "{}", grams.hint());
+        assert!(grams.hint().ends_with("for 413 g write 0.413"), "{}", grams.hint());
         let another = vehicle.check_said(&of(None, Some(0.04))).unwrap_err();
         assert!(another.hint().contains("name of the vehicle"), "{}", another.hint());
     }

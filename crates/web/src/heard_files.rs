@@ -150,7 +150,8 @@ impl HeardFiles {
 fn in_words(error: &MediaError) -> String {
     match error {
         MediaError::NeedsFfmpeg { container, codec, .. } => format!(
-            "the {container} holds {codec}, which the page cannot decode; convert the sound to WAV or FLAC, or use the command `hovertone speed` beside ffmpeg"
+            "the {container} holds {codec}, which the page cannot decode; convert the sound to WAV or FLAC, or \
+            install ffmpeg and use the command `hovertone speed`"
         ),
         error => error.to_string(),
     }

@@ -137,8 +137,8 @@ fn notice_of_one_tone(record: &SpeedRecord, config: &Config) -> Option<Notice> {
     }
     let share = record.speed()?.rotors_std_share();
     let text = format!(
-        "one tone is used for all {} rotors. It may be the tone of one rotor alone. The ± allows for this: it assumes that this rotor \
-         differs from the mean by {:.1} % (standard deviation)",
+        "one tone is used for all {} rotors. It may be the tone of one rotor alone, so the ± is larger: hovertone \
+        assumes that this rotor differs from the mean of all by {:.1} % (standard deviation)",
         rotors.count,
         100.0 * share
     );
@@ -237,15 +237,16 @@ fn why_rate_is_low(tone: &ToneConfig, half_rate_hz: f64) -> Option<String> {
     let are_speeds_known = tone.speed_max != ToneConfig::of_order(order).speed_max;
     Some(if are_speeds_known {
         format!(
-            "the sample rate is too low: no sound above {half_rate_khz:.1} kHz is recorded, and the tone of order {order} may be as high \
-            as {:.1} kHz; record at a higher sample rate, or follow a lower tone",
+            "the sample rate is too low: no sound above {half_rate_khz:.1} kHz is recorded, and the tone at {order} \
+            times the rotor speed may be as high as {:.1} kHz; record at a higher sample rate, or follow a lower tone",
             tone_hz / 1e3
         )
     } else {
         let blades = if tone.blades.is_none() { "count the blades and give --blades N too, or " } else { "" };
         format!(
-            "the tone of order {order} ({order} times per turn of the shaft) is not heard. The recording has no sound above {half_rate_khz:.1} kHz, so this tone can be heard only up \
-            to {:.0} rev/s; {blades}name the vehicle, or give --band LOW:HIGH around the tone",
+            "the tone at {order} times the rotor speed is not heard. The recording has no sound above \
+            {half_rate_khz:.1} kHz, so this tone can be heard only up to {:.0} rev/s; {blades}name the vehicle, or \
+            give --band LOW:HIGH around the tone",
             half_rate_hz / order.lines_per_turn()
         )
     })

@@ -170,7 +170,7 @@ impl Identified {
                 let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| format!("; {heard}"));
                 let failed = match self.identification().failed_check_count() {
                     0 => String::new(),
-                    count => format!("; the order check failed against {}", counted(count, "log")),
+                    count => format!("; the speeds in {} do not fit the sound", counted(count, "log")),
                 };
                 let verdict = format!("verdict: {}{heard}{failed}", printable(Verdict::of(table).words()));
                 match self.warnings().iter().any(ThrustWarning::forbids_use) {

@@ -9,7 +9,7 @@ use serde::Serialize;
 const LIVE: Wording = Wording::of_phrases(&[
     (", or choose a steady part with --from and --to", ""),
     ("; choose a longer or steadier part with --from and --to", ""),
-    ("; if a rotor is among them, choose its part with --from and --to", ""),
+    ("; if one of these tones is from a rotor, choose the part with this tone: --from and --to", ""),
 ]);
 
 /// What the last review says, with advice that holds for sound as it arrives.

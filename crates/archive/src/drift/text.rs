@@ -41,10 +41,11 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
     let how = if drift.is_paired {
         "recordings of the same name, one by one"
     } else {
-        "all recordings of one archive with all of the other, since no name is in both"
+        "all recordings of the earlier archive with all of the later one, because no name is in both"
     };
     let unused = format!(
-        "not compared: {} of the earlier archive, {} of the later (without a speed, or without a partner of the same name)\n",
+        "not compared: {} of the earlier archive, {} of the later (no speed was heard, or the other archive has no \
+        recording of the same name)\n",
         counted(drift.earlier_unused, "recording"),
         drift.later_unused
     );
@@ -67,7 +68,7 @@ fn has_single_rotors(drift: &Drift) -> bool {
 fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
-        false => "single rotors are not compared: they were not separated in the recordings of both archives\n",
+        false => "single rotors are not compared: both archives need recordings with separated rotors\n",
     }
 }
 
@@ -104,8 +105,8 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
     }
     let not_known = not_known_recordings_text(drift);
     if changed.is_empty() {
-        let of_known = if not_known.is_empty() { "" } else { ", as far as its rotors are known" };
-        return format!("no single recording has changed by more than its uncertainty{of_known}\n{not_known}");
+        let of_known = if not_known.is_empty() { "" } else { ", if its rotors are known" };
+        return format!("no single recording shows a change of speed above its uncertainty{of_known}\n{not_known}");
     }
     changed.sort_by(|one, other| other.change.change_share.abs().total_cmp(&one.change.change_share.abs()));
     let mut table = TextTable::new(vec![
@@ -123,7 +124,7 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
     }
     let more = match changed.len().saturating_sub(RECORDINGS_MAX) {
         0 => String::new(),
-        more => format!("and {more} more; --json has all\n"),
+        more => format!("and {more} more changes; --json lists all\n"),
     };
     format!(
         "\nspeeds of single recordings that have changed, largest change first\n{}{more}{not_known}",
@@ -136,7 +137,7 @@ fn not_known_recordings_text(drift: &Drift) -> String {
     let files: BTreeSet<&str> = rows.map(|row| row.file.as_str()).collect();
     match files.len() {
         0 => String::new(),
-        count => format!("in {}, it cannot be told which rotor is which\n", counted(count, "recording")),
+        count => format!("in {}, the sound does not show which rotor is which\n", counted(count, "recording")),
     }
 }
 

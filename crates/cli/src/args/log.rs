@@ -55,6 +55,7 @@ pub(super) fn column_name(typed: &str) -> Result<ColumnName, String> {
         Some((header, name)) if !header.trim().is_empty() => {
             Ok(ColumnName { header: header.to_owned(), name: name.trim().to_owned() })
         }
-        _ => Err("give a header and a name, as in Drehzahl=rotor1_rpm".to_owned()),
+        _ => Err("write the header of the column, then =, then a name that hovertone knows, as in Drehzahl=rotor1_rpm"
+            .to_owned()),
     }
 }

@@ -216,7 +216,7 @@ pub(crate) struct WeighArguments {
     /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
-    /// Diameter of a propeller, in m or as 8in: with it, half and double the speed can be ruled out [default: that of the results, or of
+    /// Diameter of a propeller, in m or as 8in: with it, hovertone can rule out half and double the true speed [default: that of the results, or of
     /// --vehicle]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,

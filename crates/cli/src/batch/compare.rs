@@ -25,8 +25,9 @@ pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) ->
     }
     if drift.rotors.is_empty() {
         let notice = Notice::new(
-            "there is nothing to compare: no recording of the same name has a speed in both, and one of the folders has fewer than two speeds",
-            "see why in the overview.html of both",
+            "the two archives cannot be compared: no recording with the same name has a speed in both folders, and \
+             one folder has fewer than two speeds",
+            "open overview.html in both folders: it shows which recordings have no speed",
         );
         terminal.warning(&notice, "");
         return Ok(Ending::Incomplete);
@@ -45,22 +46,23 @@ impl Results {
         let is_none = |what: &str| {
             Failure::failed(
                 what,
-                "hear both archives first, with `hovertone batch ARCHIVE -o OUT`, and give both OUT",
+                "run `hovertone batch ARCHIVE -o OUT` for each of the two archives, then give the two OUT folders",
                 folder,
             )
         };
         let text = fs::read_to_string(folder.join(IDENTITY)).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound if !folder.exists() => is_none("there is no such folder"),
-            _ => is_none("this is not a folder that `hovertone batch -o` wrote"),
+            _ => is_none("`hovertone batch` did not write this folder"),
         })?;
-        let identity: BatchIdentity = serde_json::from_str(&text)
-            .map_err(|_| is_none("this folder does not say which recordings its results belong to"))?;
+        let identity: BatchIdentity = serde_json::from_str(&text).map_err(|_| {
+            is_none("batch.json in this folder, the list of its recordings and settings, cannot be read")
+        })?;
         let place = folder.join(RECORDINGS);
-        let file = File::open(&place).map_err(|_| is_none("this folder has no recordings.parquet"))?;
+        let file = File::open(&place).map_err(|_| is_none("the table recordings.parquet is missing in this folder"))?;
         let read = summaries_of_parquet(file);
         let mut summaries = read.map_err(|error| {
-            let hint = "hear the archive again with `hovertone batch`";
-            Failure::failed(format!("this is no table of recordings: {error}"), hint, &place)
+            let hint = "run `hovertone batch` for this archive again";
+            Failure::failed(format!("this file is not a table of recordings: {error}"), hint, &place)
         })?;
         name_below_inputs(&mut summaries, &identity.inputs);
         Ok(Self { identity, summaries })
@@ -76,9 +78,9 @@ impl Results {
         let places = folders.map(|folder| format!("in {}", printable(&folder.to_string_lossy())));
         let shown = there.differences(&later.identity, places.each_ref().map(String::as_str))?;
         let text = format!(
-            "the two archives were heard with different settings ({shown}): a change may come from these alone"
+            "the two archives were heard with different settings ({shown}): the settings alone may explain a change"
         );
-        Some(Notice::new(text, "hear both with the same settings"))
+        Some(Notice::new(text, "run `hovertone batch` for both archives with the same settings"))
     }
 }
 

@@ -126,7 +126,7 @@ impl BatchFolder {
         let place = self.place_of_part(recording);
         let bytes = fs::read(&place).map_err(|error| {
             Failure::failed(
-                format!("the stored result of a finished recording cannot be read: {error}"),
+                format!("the stored result of a recording cannot be read: {error}"),
                 "check the disk",
                 &place,
             )
@@ -134,8 +134,8 @@ impl BatchFolder {
         Part::from_bytes(&bytes).map_err(|error| {
             // where it cannot be removed, the next run says the same
             let _ = remove_written(&place);
-            let what = format!("the stored result of a finished recording was damaged and is removed: {error}");
-            Failure::failed(what, "run the same command again: it hears this recording again", &place)
+            let what = format!("the stored result of a recording was damaged, and hovertone removes it: {error}");
+            Failure::failed(what, "run the same command again: it hears only this recording again", &place)
         })
     }
 }
@@ -160,10 +160,10 @@ fn is_part(path: &Path) -> bool {
 fn refuse_other(path: &Path, identity: &BatchIdentity) -> Result<(), Failure> {
     let place = path.join(IDENTITY);
     let Ok(text) = fs::read_to_string(&place) else { return Ok(()) };
-    let hint = "choose a new folder with -o DIR, or use --force to start again";
+    let hint = "choose a new folder with -o DIR, or use --force to remove the old results and start again";
     let Ok(there) = serde_json::from_str::<BatchIdentity>(&text) else {
         return Err(refused(
-            "this file does not say which recordings the results in its folder belong to: nothing was written",
+            "this file should list the recordings and settings of the results in its folder, but it cannot be read: nothing was written",
             hint,
             &place,
         ));
@@ -183,13 +183,14 @@ fn lock_of_run(path: &Path, shard: Shard) -> Result<File, Failure> {
 fn lock_of_shard(path: &Path, shard: Shard) -> Result<File, Failure> {
     let (file, place) = lock_file(path, &format!("job-{shard}").replace('/', "-of-"))?;
     let locked = file.try_lock();
-    taken(locked, file, &place, "another run of hovertone does the same job in this folder")
+    taken(locked, file, &place, "another run of hovertone is doing the same job (--shard) in this folder")
 }
 
 fn taken(locked: Result<(), TryLockError>, file: File, place: &Path, other: &str) -> Result<File, Failure> {
     match locked {
         Err(TryLockError::WouldBlock) => {
-            let hint = "wait for it; several jobs share a folder with --shard 1/N to N/N";
+            let hint =
+                "wait until the other run ends; to share the work among N jobs, give them --shard 1/N to --shard N/N";
             Err(Failure::failed(other, hint, place.parent().unwrap_or(place)))
         }
         Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {

@@ -69,8 +69,8 @@ impl Names {
         for Found { path, state } in recordings {
             let name = path.to_string_lossy().into_owned();
             if path.to_str().is_none() && odd.insert(name.clone(), path.clone()).is_some_and(|other| other != *path) {
-                let what = "the names of two recordings are no text in UTF-8, and look alike in a table";
-                return Err(Failure::failed(what, "rename one of them", path));
+                let what = "the names of two recordings are not valid UTF-8 text, and they look the same in a table";
+                return Err(Failure::failed(what, "rename one of the two files", path));
             }
             if let Some(state) = state {
                 stored.insert(name.clone(), state.clone());
@@ -102,17 +102,17 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Recordings, Failure> {
         if of_input.is_empty() {
             let (what, hint) = match input {
                 input if input.is_dir() => (
-                    "no recording is in this folder",
-                    "recordings are recognised by their endings, such as .wav or .mp4",
+                    "this folder has no recordings",
+                    "hovertone finds recordings by the endings of their names, such as .wav or .mp4",
                 ),
                 input if is_list(input) => {
                     ("this list names no recording", "write the name of a recording on each line")
                 }
                 input if is_address(input) => (
-                    "no recording is at this address",
-                    "recordings are recognised by their endings, such as .wav or .mp4",
+                    "there are no recordings at this address",
+                    "hovertone finds recordings by the endings of their names, such as .wav or .mp4",
                 ),
-                _ => ("no file matches this pattern", "check the folder and the ending of its files"),
+                _ => ("no file matches this pattern", "check the folder and the ending in the pattern, such as *.wav"),
             };
             return Err(Failure::failed(what, hint, input));
         }
@@ -179,7 +179,8 @@ fn files_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
     let is_missing = |path: &PathBuf| !path.exists();
     match files.iter().find(|path| is_missing(path)) {
         Some(path) if !is_pattern(&path.to_string_lossy()) => {
-            let hint = "give a folder, a pattern, a recording, or a list of names that ends in .txt";
+            let hint = "check the name; give a folder, a pattern such as *.wav, a recording, or a text file (.txt) \
+                        with a name on each line";
             Err(Failure::failed("there is no such file or folder", hint, path))
         }
         _ => Ok(files

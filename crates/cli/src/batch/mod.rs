@@ -27,8 +27,11 @@ use tables::write_tables;
 /// Hears what is missing, and writes the tables where nothing is missing any more.
 pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     if arguments.replace.force && arguments.shard.is_some() {
-        let what = "--force starts again, and would remove the results of the other jobs";
-        return Err(Failure::usage(what, "leave --force out, or remove the folder before the jobs start"));
+        let what = "--force cannot be used with --shard: it would remove the results of the other jobs";
+        return Err(Failure::usage(
+            what,
+            "leave --force out; to start again, remove the folder before the first job starts",
+        ));
     }
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     if let Some(notice) = idle_mass(&arguments.known, &config.known) {
@@ -126,7 +129,7 @@ fn say(said: &Said<'_>, wants_json: bool, terminal: &mut Terminal) -> Result<(),
             place(tables::OVERVIEW)
         ),
         None => format!(
-            "job {} has ended: {} heard: {}\nthe tables are written when the last of all jobs ends\n",
+            "job {} has ended: {} heard: {}\nthe job that ends last writes the tables\n",
             said.shard,
             counted(said.heard.total(), "recording"),
             said.heard

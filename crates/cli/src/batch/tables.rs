@@ -42,9 +42,13 @@ impl Written {
         let count = self.counts.ambiguous + self.counts.no_rotor_tone;
         let has = if count == 1 { "has" } else { "have" };
         let more = if count > self.unsure.len() { ", …" } else { "" };
-        let text = format!("{} {has} no sure speed: {}{more}", counted(count, "recording"), self.unsure.join(", "));
+        let text = format!(
+            "{} {has} no speed, or several possible speeds: {}{more}",
+            counted(count, "recording"),
+            self.unsure.join(", ")
+        );
         let hint = format!(
-            "hear one with `hovertone speed` and the same flags: it says why, and what to do; {} shows all",
+            "run `hovertone speed` with one of these recordings and the same flags: it says why, and what to do; {} shows all recordings",
             overview.display()
         );
         (count > 0).then(|| Notice::new(text, hint))
@@ -178,8 +182,11 @@ mod tests {
             written.notice_of_unsure(Path::new("out/overview.html"))
         };
         assert_eq!(notice(0), None);
-        assert_eq!(notice(1).map(|notice| notice.text), Some("1 recording has no sure speed: 0.wav".to_owned()));
-        let seven = "7 recordings have no sure speed: 0.wav, 1.wav, 2.wav, 3.wav, 4.wav, …";
+        assert_eq!(
+            notice(1).map(|notice| notice.text),
+            Some("1 recording has no speed, or several possible speeds: 0.wav".to_owned())
+        );
+        let seven = "7 recordings have no speed, or several possible speeds: 0.wav, 1.wav, 2.wav, 3.wav, 4.wav, …";
         let said = notice(7).map(|notice| (notice.text, notice.hint));
         assert!(
             said.as_ref().is_some_and(|(text, hint)| text == seven && hint.contains("out/overview.html")),

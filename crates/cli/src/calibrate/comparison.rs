@@ -103,14 +103,15 @@ impl Comparison {
             Reference::Speed { rpm, .. } => {
                 let gear = gear_of(arguments).filter(|gear| is_ratio(1.0 / gear.ratio()))?;
                 Some(format!(
-                    "Was the known speed that of the motor? Then give the speed of the rotor behind the gear {}:{}: --tachometer-rpm {}",
+                    "Is the known speed the speed of the motor? Then give the speed of the rotor, after the gear \
+                     {}:{}: --tachometer-rpm {}",
                     gear.pinion,
                     gear.wheel,
                     to_tenths(rpm / gear.ratio())
                 ))
             }
             Reference::Tone { hz, .. } if self.heard.is_rotor && order > 1.0 && is_ratio(order) => Some(format!(
-                "Was {hz} Hz the speed of the shaft? Then give --tachometer-rpm {}",
+                "Does the shaft turn {hz} times per second? Then give --tachometer-rpm {}",
                 to_tenths(RotorSpeed::from_rev_s(hz).rpm())
             )),
             Reference::Tone { .. } => None,
@@ -125,7 +126,7 @@ impl Comparison {
 
 fn in_turns_per_second(rpm: f64) -> String {
     let right = to_tenths(SECONDS_PER_MINUTE * rpm);
-    format!("Was the known speed in turns per second? {rpm} turns per second are --tachometer-rpm {right}")
+    format!("Does the rotor turn {rpm} times per second, not per minute? Then give --tachometer-rpm {right}")
 }
 
 /// Asks whether the known speed was in turns per second, where several rotors are heard near sixty times it.
@@ -139,7 +140,8 @@ pub(super) fn slip_of_turns_per_second(reference: Reference, heard: RotorSpeed) 
 pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &CalibrateArguments) -> String {
     let (known, heard) = comparison.pair();
     let order = if comparison.heard.is_rotor { format!(", order {}", comparison.heard.order) } else { String::new() };
-    let mut text = format!("{}: known {known}, heard {heard} (± is k = 2){order}\n", printable(name));
+    let mut text =
+        format!("{}: known {known}, heard {heard} (± covers about 95 % of cases, k = 2){order}\n", printable(name));
     text += &order_in_words(comparison, arguments);
     // of a speed that may be another one, no clock is told
     if comparison.agrees() {
@@ -189,22 +191,25 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     };
     match check.relation {
         Relation::Agrees if !is_rotor => String::new(),
-        Relation::Agrees => format!("order: pass, it is {order}\n"),
+        Relation::Agrees => format!("order (lines per turn): pass, it is {order}\n"),
         _ if let Some(slip) = comparison.slip(arguments) => {
-            format!("order: fail. The heard {what} is {ratio} times the known {what}. {slip}\n")
+            format!("order (lines per turn): fail. The heard {what} is {ratio} times the known {what}. {slip}\n")
         }
         Relation::OtherOrder(fitting) if *is_rotor => {
-            format!("order: fail. The heard {what} is {ratio} times the known {what}. One of these is wrong:\n")
-                + &other_order_in_words(comparison, fitting, arguments)
+            format!(
+                "order (lines per turn): fail. The heard {what} is {ratio} times the known {what}. One of these three is wrong:\n"
+            ) + &other_order_in_words(comparison, fitting, arguments)
         }
         _ if !is_rotor => format!(
-            "tone: fail. The heard frequency is {ratio} times the known frequency, and no clock is off by more than {CLOCK_PERCENT_MAX} %. Is the \
-             known frequency right? Was the file resampled or slowed down?\n"
+            "tone: fail. The heard frequency is {ratio} times the known frequency. The clock is not the reason: no \
+             clock is off by more than {CLOCK_PERCENT_MAX} %. Check the known frequency, and whether the file was \
+             resampled or slowed down.\n"
         ),
         _ => format!(
-            "order: fail. The heard {what} is {ratio} times the known {what}. No other order of the tone gives this ratio, and no clock is off by \
-             more than {CLOCK_PERCENT_MAX} %. Check the known {what}: was it read during this recording, and to the last digit? If it is right, \
-             another rotor was heard, or the file was resampled or slowed down.\n"
+            "order (lines per turn): fail. The heard {what} is {ratio} times the known {what}. No other order gives \
+             this ratio, and no clock is off by more than {CLOCK_PERCENT_MAX} %. Check the known {what}: was it read \
+             during this recording, and to the last digit? If the known {what} is right, another rotor was heard, or \
+             the file was resampled or slowed down.\n"
         ),
     }
 }
@@ -214,20 +219,22 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
     let order = comparison.heard.order;
     let known = match comparison.reference {
         Reference::Speed { rpm, .. } => format!(
-            "  the known speed: a tachometer that sees each blade reads a multiple. Then give --tachometer-rpm {}\n",
+            "  the known speed: a tachometer that counts each blade shows a multiple of the speed. If yours does, \
+             give --tachometer-rpm {}\n",
             to_tenths(rpm * fitting.lines_per_turn() / order.lines_per_turn())
         ),
-        Reference::Tone { .. } => "  the known frequency: it may be that of another harmonic\n".to_owned(),
+        Reference::Tone { .. } => "  the known frequency: it may belong to another harmonic of the tone\n".to_owned(),
     };
     let without_vehicle = if arguments.tone.vehicle.is_some() { "leave --vehicle out and " } else { "" };
     let as_blades = if fitting.lines_per_turn() <= BLADES_MAX && fitting.lines_per_turn().fract() == 0.0 {
-        format!(" (for a blade pass --blades {fitting})")
+        format!(" (for the tone of the blades, --blades {fitting})")
     } else {
         String::new()
     };
     format!(
-        "{known}  the order, {order}: it may be {fitting}. Then {without_vehicle}give --order {fitting}{as_blades}, or in an experiment file \
-         [tone] order = {fitting}\n  the tone that was heard: by the known speed, the tone lies in --band {}\n",
+        "{known}  the order, {order}: it may be {fitting}. If so, {without_vehicle}give --order {fitting}{as_blades}; \
+         in an experiment file, write order = {fitting} under [tone]\n  the tone that was heard: to hear only the \
+         tone at the known speed, give --band {}\n",
         comparison.band()
     )
 }
@@ -257,9 +264,10 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     };
     let advice = match judgement {
         Judgement::Undecided if comparison.is_known_the_less_exact() => {
-            "; the ± comes from the known number: measure it more exactly (--known-std-ppm says how exact it is)"
+            "; most of the ± comes from the known number: measure it more exactly, and give its \
+             uncertainty with --known-std-ppm"
         }
-        Judgement::Undecided => "; the ± comes from the sound: record longer",
+        Judgement::Undecided => "; most of the ± comes from the sound: make a longer recording",
         _ => "",
     };
     let verdict = word(judgement);
@@ -269,19 +277,20 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
         format!(
-            "correction of the clock: none, because no clock is off by more than {CLOCK_PERCENT_MAX} %: check the known speed, and \
-             whether the recording was slowed down\n"
+            "correction of the clock: none, because no clock is off by more than {CLOCK_PERCENT_MAX} %. Check the \
+             known speed, and whether the recording was slowed down\n"
         )
     } else if check.is_significant() {
         let decimals = correction_decimals(check.expanded_ppm());
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         format!(
-            "correction of the clock: --clock-correction-ppm {ppm}, or in an experiment file\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}  # what may remain: clocks change with temperature\n",
+            "correction of the clock: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
+             [recorder]\n  clock_correction_ppm = {ppm}\n  \
+             clock_ppm = {}  # error that may remain: clocks change with temperature\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {
-        "correction of the clock: none, the difference is within its ±\n".to_owned()
+        "correction of the clock: none is needed, because the difference is smaller than its ±\n".to_owned()
     };
     text
 }

@@ -37,9 +37,11 @@ const OTHER_ROTOR: &str = "other_rotor";
 const HARDLY_HEARD: &str = "tone_hardly_heard";
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
-const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, but the known speed is that of one rotor; record one rotor \
-that runs alone";
-const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
+const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, but the known speed belongs to one \
+                                rotor; record one rotor that runs alone";
+const SEE_HELP: &str = "for example `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
+const SEE_HELP_OF_SPEED: &str =
+    "for example `hovertone calibrate --tachometer-rpm 3600 --blades 2 rotor.wav`; see `hovertone calibrate --help`";
 
 /// The meaning of the arguments.
 struct Plan {
@@ -69,8 +71,8 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
     let files = std::slice::from_ref(&arguments.file);
     let jobs = jobs_of(files, &plan.config, plan.discovery, Requests::default())?;
     let [job] = &jobs[..] else {
-        let what = format!("one recording is compared with one speed, and {} files match the name", jobs.len());
-        return Err(Failure::usage(what, "give the one that was made at this speed"));
+        let what = format!("the known speed belongs to one recording, but {} files match the name", jobs.len());
+        return Err(Failure::usage(what, "give the recording that was made at this speed"));
     };
     let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
     let hearing = Hearing::of(&arguments.hearing);
@@ -132,7 +134,7 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress)
     if let Some(record) = record.as_ref().filter(|record| record.is_ambiguous()) {
         return undecided(
             AMBIGUOUS,
-            format!("several rotor speeds explain this sound; {}", settled_by(plan, record.order)),
+            format!("several rotor speeds fit this sound; {}", settled_by(plan, record.order)),
         );
     }
     let speed = record.as_ref().and_then(|record| {
@@ -177,8 +179,9 @@ fn settled_by(plan: &Plan, order: Order) -> String {
         Reference::Speed { rpm, .. } if RotorSpeed::from_rpm(rpm).rev_s() < plan.config.tone.speed_min.rev_s() => {
             let slowest_rpm = plan.config.tone.speed_min.rpm();
             return format!(
-                "the known speed, {rpm} rpm, is none of them, as hovertone hears only rotors of {slowest_rpm:.0} rpm or more; check the known speed; \
-                 if it was in turns per second, give --tachometer-rpm {}",
+                "the known speed, {rpm} rpm, is not one of them, because hovertone hears only rotors of \
+                 {slowest_rpm:.0} rpm or more; check the known speed; if it was in turns per second, give \
+                 --tachometer-rpm {}",
                 60.0 * rpm
             );
         }
@@ -207,16 +210,17 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
     })?;
     let (order, rpm) = (record.order, record.speed()?.speed.rpm());
     let heard = format!(
-        "the tone of order {order} is not heard for {gap_percent:.0} % of the time, so this order cannot be checked"
+        "the tone of order {order} (lines per turn) is missing for {gap_percent:.0} % of the time, so this order cannot be checked"
     );
     Some(match blades {
         Some(blades) if f64::from(blades) == order.lines_per_turn() => {
-            format!("{heard}; move the microphone nearer, or choose the clear part with --from and --to")
+            format!("{heard}; move the microphone nearer, or choose a clear part of the recording with --from and --to")
         }
         _ => {
             let number = blades.map_or("N".to_owned(), |blades| blades.to_string());
             format!(
-                "{heard}. The speed, {rpm:.0} rpm, comes from other lines, such as the blade pass. If the rotor has {number} blades and no gear, \
+                "{heard}. The speed, {rpm:.0} rpm, comes from other tones, such as the blade pass (the tone of the \
+                 blades). If the rotor has {number} blades and no gear, \
                  give --blades {number} alone, in place of {}; if it has this gear, move the microphone nearer",
                 record.given_facts().in_words("and")
             )
@@ -257,8 +261,8 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
         None if is_silent => ("no_line", Some(NoTone::Silence.to_string()), Ending::Incomplete),
         None => {
             let reason = format!(
-                "no clear line of 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, record the tone louder and without \
-                 other sound, or search elsewhere with --band LOW:HIGH",
+                "no clear tone that lasts 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, \
+                 record the tone louder and without other sound, or give another range with --band LOW:HIGH",
                 band_hz.start, band_hz.end
             );
             ("no_line", Some(reason), Ending::Incomplete)
@@ -270,7 +274,8 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
 fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
     let reference = reference_of(arguments)?;
     if let Some(several) = arguments.rotors.filter(|count| *count > 1) {
-        let what = format!("{several} rotors turn, each at its own speed, and the known speed is that of one rotor");
+        let what =
+            format!("--rotors {several}: each rotor has its own speed, but the known speed belongs to one rotor");
         return Err(Failure::usage(what, "record one rotor that runs alone, and give --rotors 1"));
     }
     let known = KnownArguments { rotors: Some(1), ..KnownArguments::default() };
@@ -283,8 +288,12 @@ fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
         _ => None,
     };
     if let Some(count) = tone.harmonics.filter(|_| line_band_hz.is_some()) {
-        let what = format!("--harmonics {count} changes nothing: --true-hz compares one line, that of the generator");
-        return Err(Failure::usage(what, "leave it out, or name the rotor's tone, such as --blades 2"));
+        let what =
+            format!("--harmonics {count} changes nothing: --true-hz compares only one tone, the tone of a generator");
+        return Err(Failure::usage(
+            what,
+            "leave --harmonics out; if a rotor makes the tone, describe the rotor, for example with --blades 2",
+        ));
     }
     // the clock is what is sought, and a bench does not move
     let analysis = AnalysisArguments {
@@ -305,7 +314,8 @@ fn assumed_rotors(arguments: &CalibrateArguments) -> Result<Option<Notice>, Fail
     let count = vehicle.map_or(1, |vehicle| vehicle.rotor_count.value);
     let is_assumed = arguments.rotors.is_none() && count > 1;
     let text = format!(
-        "the vehicle has {count} rotors, but the known speed is that of one: hovertone assumes that only one rotor runs in this recording"
+        "the vehicle has {count} rotors, but the known speed belongs to one rotor: hovertone assumes that only one \
+         rotor runs in this recording"
     );
     Ok(is_assumed
         .then(|| Notice::new(text, "if only one rotor runs, add --rotors 1; if not, record one rotor that runs alone")))
@@ -319,7 +329,8 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
     if let Some(typed) = &arguments.tachometer_rpm {
         let rpm = typed.trim().parse().map_err(|_| {
             let meant = number_meant(typed).map(|(why, hint)| (why.to_owned(), hint));
-            let (why, hint) = meant.unwrap_or(("a number is needed, such as 3600".to_owned(), SEE_HELP.to_owned()));
+            let (why, hint) =
+                meant.unwrap_or(("a number is needed, such as 3600".to_owned(), SEE_HELP_OF_SPEED.to_owned()));
             Failure::usage(format!("--tachometer-rpm {typed}: {why}"), hint)
         })?;
         check_known("tachometer_rpm", rpm, TACHOMETER_RPM)?;
@@ -334,8 +345,9 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
 }
 
 fn check_known(name: &'static str, value: f64, allowed: RangeInclusive<f64>) -> Result<(), Failure> {
-    check_range(name, value, *allowed.start(), *allowed.end())
-        .map_err(|error| Failure::usage(error.to_string(), "check its unit: of a tachometer rpm, of a tone Hz"))
+    check_range(name, value, *allowed.start(), *allowed.end()).map_err(|error| {
+        Failure::usage(error.to_string(), "check the unit: --tachometer-rpm is in rpm, --true-hz is in Hz")
+    })
 }
 
 #[cfg(test)]

@@ -182,7 +182,7 @@ mod tests {
             Err(failure) => failure_in_words(&failure),
             Ok(_) => panic!("it was not refused"),
         };
-        let no_file = "speed needs at least one recording (hint: as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)";
+        let no_file = "speed needs at least one recording (hint: for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)";
         assert_eq!(words(call("speed").heard(None)), no_file);
         // advice about a number names the help of the command that was called, not that of the program that calls
         let beyond = words(call("speed --clock-ppm=-1 array").heard(Some(rotor())));

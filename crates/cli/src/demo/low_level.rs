@@ -240,9 +240,10 @@ fn page(
     let mut tables = vec![against_truth.clone()];
     tables.extend(grey_box_tables(record));
     let lead = [
-        "An AR.Drone flies a minute of doublets in the open. One microphone hears its four rotors. The model of eqs 1 and 2 predicts where \
-        their tones are, and is fitted to the tones there. The fit starts at the numbers of the preset; the true gains differ from \
-        these by 15 to 25 %."
+        "An AR.Drone flies doublets (the stick to one side, then to the other) for a minute in the open. One \
+         microphone hears its four rotors. The model of the paper's equations 1 and 2 predicts the tones, and is \
+         fitted to the heard tones. The fit starts at the numbers of the preset; the true gains differ from the \
+         preset by 15 to 25 %."
             .to_owned(),
         flown_beside.to_owned(),
     ];

@@ -38,7 +38,7 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
             put_load(&mut loads, LoadDraft { mass_kg, recordings: Vec::new() });
         }
         if let Some(unit) = file.filter(|_| mass.is_none()).and_then(unknown_unit) {
-            let what = format!("--mass {word}: the unit \"{unit}\" of a mass is not known");
+            let what = format!("--mass {word}: hovertone does not know the unit \"{unit}\"");
             return Err(Failure::usage(what, "write kilograms, such as 0.413, or grams, such as 413g"));
         }
         if let Some(point) = file.filter(|_| mass.is_none()).and_then(mass_with_point) {
@@ -46,7 +46,7 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
         }
         let Some(mass_kg) = current_kg else {
             let what = match word.split_once('=') {
-                Some((mass, _)) => format!("\"{mass}\" is no mass"),
+                Some((mass, _)) => format!("\"{mass}\" is not a mass"),
                 None => "the mass of this recording is missing".to_owned(),
             };
             return Err(Failure::usage(format!("--mass {word}: {what}"), HINT));
@@ -60,7 +60,7 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
     }
     match loads.iter().find(|load| load.recordings.is_empty()) {
         Some(load) => {
-            let what = format!("--mass {}: no recording belongs to this mass", mass_words(load.mass_kg));
+            let what = format!("--mass {}: no recording is given for this mass", mass_words(load.mass_kg));
             Err(Failure::usage(what, HINT))
         }
         None => Ok(loads),
@@ -81,7 +81,7 @@ pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
     let is_positive = |typed: &Typed| typed.si.is_finite() && typed.si > 0.0;
     let Typed { si: mass_kg, has_unit } = typed_mass_kg(text).filter(is_positive).ok_or_else(|| {
         let point = if text.contains(',') { format!("; {DECIMAL_SIGN}") } else { String::new() };
-        format!("\"{text}\" is no mass: write kilograms, such as 0.413, or grams, such as 413g{point}")
+        format!("\"{text}\" is not a mass: write kilograms, such as 0.413, or grams, such as 413g{point}")
     })?;
     if !has_unit && mass_kg > MASS_ALONE_KG_MAX {
         return Err(format!(
@@ -158,7 +158,7 @@ mod tests {
             (&["0,413", "a.mov"], "--mass 0,413: the decimal sign is a point"),
             (&["0.413", "a.mov", "0,462kg", "b.mov"], "--mass 0,462kg: the decimal sign is a point"),
             (&["413=a.mov"], "413g"),
-            (&["-0.4=a.mov"], "is no mass"),
+            (&["-0.4=a.mov"], "is not a mass"),
             (&["0.0005=a.mov"], "mass_kg = 0.0005, and it must be from 0.001"),
             (&["0.4=a.mov", "experiment.toml"], "counts as a recording"),
         ] {

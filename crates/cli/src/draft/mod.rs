@@ -82,7 +82,7 @@ impl Draft {
             format!(", and the vehicle \"{id}\" weighs {}", mass_words(mass_kg))
         });
         let what = format!(
-            "--mass {} and --mass {}: the masses of one vehicle differ by a factor of {MASS_FACTOR_MAX} at most{weighs}",
+            "--mass {} and --mass {}: the masses of one vehicle cannot differ by more than a factor of {MASS_FACTOR_MAX}{weighs}",
             mass_words(heavy_kg),
             mass_words(lightest_kg)
         );
@@ -90,9 +90,11 @@ impl Draft {
             Some((_, mass_kg)) => {
                 let is_light = mass_kg / lightest_kg > heavy_kg / mass_kg;
                 let far = mass_words(if is_light { lightest_kg } else { heavy_kg });
-                format!("check --mass {far}: its decimal point and its unit")
+                format!("check the decimal point and the unit of --mass {far}")
             }
-            None => "check both, their decimal points and their units: 0.413 and 413g are the same".to_owned(),
+            None => {
+                "check the decimal points and the units of both masses: 0.413 (kg) and 413g are the same".to_owned()
+            }
         };
         Err(Failure::usage(what, hint))
     }
@@ -117,7 +119,10 @@ impl Draft {
         let has_rotors = self.rotors.is_some() || vehicle.is_some();
         let needs: [(bool, &'static str); 4] = [
             (vehicle.is_some() || has_tone, "--vehicle NAME, or --blades N"),
-            (vehicle.is_none() || has_tone, "--blades N, which is not known of this vehicle"),
+            (
+                vehicle.is_none() || has_tone,
+                "--blades N (hovertone does not know the number of blades of this vehicle)",
+            ),
             (vehicle.is_some() || has_rotors, "--rotors N"),
             (!self.loads.is_empty(), "--mass KG=FILES, once for each load"),
         ];

@@ -11,7 +11,7 @@ use toml::Value;
 /// Column of the comments.
 const COMMENT_COLUMN: usize = 32;
 /// How a recording names its log.
-const LOG_LINES: &str = "\n# A log of the flight (ULog, DataFlash, blackbox, CSV) names the rotors and checks order and clock:\n\
+const LOG_LINES: &str = "\n# A log of the flight (ULog, DataFlash, blackbox, CSV) tells which rotor is which, and checks the speeds:\n\
                          # recordings = [{ file = \"hover.wav\", log = \"hover.ulg\" }]\n";
 
 impl Draft {
@@ -30,17 +30,17 @@ impl Draft {
             text += &line("rotors", &rotors.to_string(), "all that carry it");
         }
         if let Some(blades) = self.blades {
-            text += &line("blades", &blades.to_string(), "of each propeller: lines per turn of the blade pass");
+            text += &line("blades", &blades.to_string(), "number of blades of each propeller");
         }
         if let Some(gear) = self.gear {
             let value = format!("{{ pinion = {}, wheel = {} }}", gear.pinion, gear.wheel);
-            text += &line("gear", &value, "teeth; the tone is the mesh of the wheel");
+            text += &line("gear", &value, "numbers of teeth; the speed is heard from the tone of the gear");
         }
         text += &self.diameter_lines(vehicle);
         text += &line(
             "mass_kg",
             &self.vehicle_mass_kg().to_string(),
-            "ready to fly, with battery: the lightest load below",
+            "ready to fly, with battery: the mass of the lightest load",
         );
         text += &line("mass_std_kg", "0.0005", "the scale shows whole grams");
         text += &self.gravity_lines();
@@ -54,12 +54,13 @@ impl Draft {
 
     /// The diameter, and why it matters.
     fn diameter_lines(&self, vehicle: Option<&Vehicle>) -> String {
-        const WHY: &str = "# With the diameter and the mass, half and double the speed can be ruled out. C_T needs the diameter too.\n";
+        const WHY: &str = "# With the diameter and the mass, hovertone can rule out half and double the true speed. \
+                           C_T needs the diameter too.\n";
         let of_vehicle = vehicle.and_then(|vehicle| vehicle.propeller_diameter_m).map(|diameter| diameter.value);
         let value = match (self.diameter_m, of_vehicle) {
             (Some(diameter_m), _) => line("propeller_diameter_m", &diameter_m.to_string(), "from tip to tip"),
             (None, Some(diameter_m)) => {
-                format!("# propeller_diameter_m = {} # known of this vehicle\n", rounded(diameter_m))
+                format!("# propeller_diameter_m = {} # known already from the preset\n", rounded(diameter_m))
             }
             (None, None) => "# propeller_diameter_m = 0.2    # from tip to tip: measure it\n".to_owned(),
         };
@@ -76,7 +77,8 @@ impl Draft {
             text += &value.map_or(String::new(), |value| line(name, &value.to_string(), comment));
         }
         if text.is_empty() {
-            text += "# latitude_deg = 48.1           # of the flights: makes the ± smaller, as gravity differs by 0.5 % on Earth\n";
+            text += "# latitude_deg = 48.1           # place of the flights: the ± gets smaller, because gravity \
+                     differs by 0.5 % on Earth\n";
             text += "# height_m = 500.0              # above the sea\n";
         }
         text
@@ -88,7 +90,7 @@ impl Draft {
         text += &line(
             "added_mass_kg",
             &added_kg.to_string(),
-            &format!("above the vehicle: {} as flown", mass_words(load.mass_kg)),
+            &format!("added to the vehicle: {} in flight", mass_words(load.mass_kg)),
         );
         text += &match &load.recordings[..] {
             [one] => format!("recordings = [{}]\n", quoted(one)),
@@ -164,7 +166,7 @@ mod tests {
             let file: ExperimentFile = toml::from_str(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
             let experiment = file.resolve(None).unwrap();
             assert_eq!(experiment.rotor_count, rotors);
-            assert!(experiment.is_weighed && text.contains("half and double the speed"), "{text}");
+            assert!(experiment.is_weighed && text.contains("half and double the true speed"), "{text}");
             let names: Vec<&str> = experiment.loads.iter().map(|load| load.name.as_str()).collect();
             assert_eq!(names, ["small", "no \"hull\" [1]", "x"]);
             for (resolved, typed) in experiment.loads.iter().zip(&loads) {

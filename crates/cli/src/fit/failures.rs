@@ -18,18 +18,21 @@ pub(super) fn table_failure(error: &TableError, path: &Path) -> Failure {
     let hint = match error {
         TableError::OtherUnit { header: Some(header), .. } => {
             rename = format!(
-                "their unit is probably another one: rename the header to {header}, or to the unit that they have"
+                "the numbers probably have another unit: rename the header to {header}, or to the unit of the numbers"
             );
             &rename
         }
-        TableError::OtherUnit { .. } => "their unit is probably another one: name it in the header, as in speed_rad_s",
-        TableError::NoColumn { .. } => {
-            "rename its header, as in speed_rpm, thrust_g or mass_g; `hovertone fit --help` lists all words that hovertone knows"
+        TableError::OtherUnit { .. } => {
+            "the numbers probably have another unit: write the unit into the header, as in speed_rad_s"
         }
-        TableError::NoUnit { .. } => "name its unit in the header: thrust_g, thrust_n, thrust_kg or thrust_lbf",
+        TableError::NoColumn { .. } => {
+            "rename the header of the right column, as in speed_rpm, thrust_g or mass_g; `hovertone fit --help` lists \
+             all words that hovertone knows"
+        }
+        TableError::NoUnit { .. } => "write the unit into the header: thrust_g, thrust_n, thrust_kg or thrust_lbf",
         TableError::Csv(error) => error.hint(),
-        TableError::HeaderAlone => "give a row for each measurement, below the header",
-        TableError::NoRow => "check that the speed is not 0 in all rows: the tachometer may not have been connected",
+        TableError::HeaderAlone => "write a row for each measurement below the header",
+        TableError::NoRow => "check whether the speed is 0 in all rows: perhaps the tachometer was not connected",
         _ => "correct the cell, or remove the row",
     };
     Failure::Usage { what: error.to_string(), hint: hint.to_owned(), path: Some(path.to_owned()) }
@@ -68,9 +71,7 @@ pub(super) fn refuse_absurd_std(points: &[ForcePoint], table: &StandTable, path:
     let how = if share > 1.0 { "large" } else { "small" };
     let columns = table.std_columns.join(" or ");
     Err(Failure::Usage {
-        what: format!(
-            "{name}: the stated uncertainty is too {how} to be fitted: it is {share:.0e} times the {quantity}"
-        ),
+        what: format!("{name}: the stated uncertainty is too {how} for a fit: it is {share:.0e} times the {quantity}"),
         hint: format!("correct {columns} in this row, or remove this column"),
         path: Some(path.to_owned()),
     })
@@ -84,12 +85,13 @@ pub(super) fn without_scatter(reason: NoScatter, group: &StandGroup, table: &Sta
             let together = match table.groups.len() {
                 ..=1 => String::new(),
                 groups => format!(
-                    "the columns with words split the table into {groups} groups, each with a fit of its own: remove these columns to fit all rows together; else "
+                    "the columns with words split the table into {groups} groups, each with a fit of its own: remove \
+                     these columns to fit all rows together; or "
                 ),
             };
             (format!(", and the {of} has {count}"), together + "measure more rows")
         }
-        _ => (String::new(), "give the rows as they were measured".to_owned()),
+        _ => (String::new(), "give measured rows, not calculated rows".to_owned()),
     };
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
     let notes: String = table.notes.iter().map(|note| format!("; {note}")).collect();

@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
         (Some(mass_kg), true) => return plan_campaign(arguments, mass_kg, gravity, terminal),
         (Some(mass_kg), false) => {
             let what = format!("mass_kg = {} is only for --plan: a table has its own forces", number_in_words(mass_kg));
-            return Err(Failure::usage(what, "leave it out, or give --plan without a table"));
+            return Err(Failure::usage(what, "leave --mass-kg out, or give --plan without a table"));
         }
         (None, _) => {}
     }

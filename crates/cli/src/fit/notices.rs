@@ -32,8 +32,10 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
 /// What to do about a note on a table; empty where it only says what was done with rows.
 pub(super) fn hint_of_note(note: &str) -> &'static str {
     match note {
-        note if note.contains("its name has no unit") => "if it is meant, put its unit into its name, as in thrust_g",
-        note if note.starts_with("column ") => "if you mean this column, remove the other",
+        note if note.contains("its name has no unit") => {
+            "if hovertone should use this column, write the unit into its name, as in thrust_g"
+        }
+        note if note.starts_with("column ") => "if hovertone should use this column, remove the other column",
         _ => "",
     }
 }
@@ -46,13 +48,15 @@ pub(super) fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -
         Some(count) => {
             format!("the table names {count} rotors, but its forces are used as the forces of one rotor")
         }
-        None if is_weighed => "the masses are used as if one rotor carried them".to_owned(),
+        None if is_weighed => "hovertone uses each mass as if one rotor carried it".to_owned(),
         None => return None,
     };
     let count = several.map_or_else(|| "N".to_owned(), |count| count.to_string());
     Some(Notice::new(
         text,
-        format!("give --rotors {count} for the constant of one rotor; --rotors 1 if one rotor is right"),
+        format!(
+            "if {count} rotors made the force together, give --rotors {count}; if one rotor made it, give --rotors 1"
+        ),
     ))
 }
 
@@ -76,7 +80,7 @@ pub(super) fn too_large_notice(per_rotor: Estimate) -> Option<Notice> {
         "a propeller with this thrust constant would have a diameter of {} m or more",
         significant(diameter_m, 2)
     );
-    let hint = "check whether the columns of speed and force are exchanged, and check their units";
+    let hint = "check whether the columns of speed and force are swapped, and check their units";
     (diameter_m > DIAMETER_M_MAX).then(|| Notice::new(text, hint))
 }
 
@@ -86,7 +90,7 @@ pub(super) fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_coun
     let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
     let mach = if tip_mach < MACH_WITH_DECIMALS_MAX { fixed(tip_mach, 2) } else { format!("{tip_mach:.0e}") };
     let text = format!(
-        "no propeller has this thrust at this speed: its tips would move at Mach {mach} (times the speed of sound) or faster"
+        "no propeller has this thrust at this speed: the tips of its blades would move at Mach {mach} (times the speed of sound) or faster"
     );
     let rotors = if is_count_given { "--rotors" } else { "give the number of rotors with --rotors" };
     let hint = format!("check the units of the forces and of the speeds, and {rotors}");

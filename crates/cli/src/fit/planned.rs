@@ -47,8 +47,9 @@ pub(super) fn plan_campaign(
     let plan = flight_plan(&wish).map_err(|error| {
         let hint = match error {
             PlanError::OutOfReach { .. } => {
-                "give a larger --wanted-share; or measure better, and then plan again: weigh more exactly (--mass-std-kg), tell where you fly (--latitude-deg), \
-                 or record from so near that `hovertone speed` separates the rotors (--rotors-separated)"
+                "give a larger --wanted-share; or measure better, then plan again: weigh more exactly \
+                 (--mass-std-kg), give the place of the flight (--latitude-deg), or record so near the vehicle that \
+                 `hovertone speed` separates the rotors (--rotors-separated)"
             }
             PlanError::Quantity(QuantityError { name: "wanted_share", .. }) => "for 2 % give --wanted-share 0.02",
             _ => "see `hovertone fit --help`",

@@ -35,7 +35,7 @@ const COMMAND_CHANGE_MIN: f64 = 0.02;
 const SPEED_CHANGE_MIN: f64 = 2e-4;
 /// What to fly where a flight shows no model.
 const FLY_DOUBLETS: &str =
-    "fly doublets for a minute, in roll, pitch, yaw and climb: a command to one side, then to the other";
+    "fly doublets (the stick to one side, then to the other) for a minute, in roll, pitch, yaw and climb";
 
 /// Recording and log of a flight.
 pub(crate) struct FlightFiles {
@@ -135,13 +135,13 @@ impl FlownLog {
         let beyond = control.command.iter().flatten().flatten().find(|command| command.abs() > 1.0 + 1e-9);
         if let Some(command) = beyond {
             return Err(refused(&format!(
-                "a command of this log is {command}, but commands must be from −1 to 1, the whole stick"
+                "a command of this log is {command}, but commands must be from −1 to 1, where 1 is the full stick"
             )));
         }
         let speeds_rad_s = speeds_rad_s(&control);
         let log = control_log(control.clone(), offset_s);
         let inputs = LoopInputs::from_log(&log, &ControlKnowns::of(&vehicle.parameters))
-            .ok_or_else(|| refused("this log has fewer than two whole rows of commands and measurements"))?;
+            .ok_or_else(|| refused("this log has fewer than two rows with both commands and measurements"))?;
         if !inputs.has_loop.contains(&true) {
             return Err(without_loops(&control.missing, path));
         }
@@ -157,7 +157,7 @@ impl FlownLog {
         };
         let is_flown = self.log.command.iter().flatten().any(|commands| range(commands) >= COMMAND_CHANGE_MIN);
         let what = format!(
-            "no doublets were flown: no command of this log changes by {COMMAND_CHANGE_MIN} or more (1 is the whole stick)"
+            "no doublets were flown: no command of this log changes by {COMMAND_CHANGE_MIN} or more, where 1 is the full stick"
         );
         if is_flown { Ok(()) } else { Err(Failure::failed(what, FLY_DOUBLETS, path)) }
     }
@@ -185,7 +185,10 @@ fn without_loops(missing: &[MissingControl], path: &Path) -> Failure {
     hints.dedup();
     let lacks: Vec<String> =
         missing.iter().map(|missing| format!("{} lacks {}", missing.control_loop.name(), missing.what)).collect();
-    let what = format!("this log has no command together with the angle or rate that follows it: {}", lacks.join("; "));
+    let what = format!(
+        "this log has no command together with the angle or rate that the command controls: {}",
+        lacks.join("; ")
+    );
     Failure::failed(what, hints.join("; "), path)
 }
 
@@ -252,20 +255,26 @@ pub(crate) fn fit_of(
     let start = vehicle.start();
     let stopped = |stop: GreyBoxStop| {
         let what = match stop {
-            GreyBoxStop::NotConverged => format!("no model of the vehicle \"{}\" explains this flight", vehicle.id()),
+            GreyBoxStop::NotConverged => {
+                format!("the model of the vehicle \"{}\" could not be fitted to this flight", vehicle.id())
+            }
             _ => stop.to_string(),
         };
         let hint = match stop {
             GreyBoxStop::NotConverged => {
-                "is --vehicle right, and --log-axes? If both are right, fly doublets for a minute, in roll, pitch, yaw and climb"
+                "check --vehicle and --log-axes; if both are right, fly doublets (the stick to one side, then to the \
+                 other) for a minute, in roll, pitch, yaw and climb"
             }
             GreyBoxStop::TooShort { .. } => {
-                "fly doublets for a minute, in roll, pitch, yaw and climb; record and log the whole flight"
+                "fly doublets (the stick to one side, then to the other) for a minute, in roll, pitch, yaw and climb; record and log the whole flight"
             }
             GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
-                "give the log of this recording; if the clocks of both differ, give --log-offset-s; fly doublets for a minute"
+                "check that the log belongs to this recording; if the clocks of the two differ, give --log-offset-s; \
+                 fly doublets (the stick to one side, then to the other) for a minute"
             }
-            _ => "fly doublets for a minute, in roll, pitch, yaw and climb; log the commands and the angles",
+            _ => {
+                "fly doublets (the stick to one side, then to the other) for a minute, in roll, pitch, yaw and climb; log the commands and the angles"
+            }
         };
         Failure::Usage { what, hint: hint.to_owned(), path: Some(files.log.clone()) }
     };
@@ -280,7 +289,7 @@ pub(crate) fn fit_of(
             let fit = fit.map_err(stopped)?;
             let change = checked(&observations, &fit.prediction(&flown.inputs)).map(|checked| checked.change_share);
             if change.is_some_and(|change| change < SPEED_CHANGE_MIN) {
-                let what = "the rotor speeds of this log never change, so they show no model";
+                let what = "the rotor speeds of this log do not change, so no model can be found";
                 return Err(Failure::failed(what, FLY_DOUBLETS, &files.log));
             }
             Ok(Heard { fit, observations, names_nats: None, better: None })
@@ -301,7 +310,7 @@ pub(crate) fn fit_of(
 
 /// The failure of a log that the sound does not follow.
 fn not_followed(log: &Path) -> Failure {
-    let what = "the sound does not follow this log, at any offset of their clocks up to 10 s";
+    let what = "the rotor speeds in the sound do not follow the commands of this log, even if one clock is moved by up to 10 s";
     let hint = "give the recording and the log of the same flight; check --vehicle; if the clocks differ by more than 10 s, give --log-offset-s";
     Failure::failed(what, hint, log)
 }
@@ -331,7 +340,7 @@ pub(crate) fn speeds_of(
 
 fn logged_observations(flown: &FlownLog, files: &FlightFiles) -> Result<Vec<SpeedObservation>, Failure> {
     let Some(speeds) = &flown.speeds_rad_s else {
-        let what = "this log has no speeds of four rotors, and there is no recording";
+        let what = "this log does not have the speeds of four rotors, and no recording is given";
         let hint = "give the recording before the log, or a log with speed_1_rad_s to speed_4_rad_s";
         return Err(Failure::failed(what, hint, &files.log));
     };

@@ -154,7 +154,7 @@ impl LogReader {
     fn read(&self, files: &FlightFiles, vehicle: &GreyBoxVehicle) -> Result<FlownLog, Failure> {
         if files.recording.as_deref().is_some_and(|recording| !is_recording(recording)) && is_recording(&files.log) {
             return Err(Failure::failed(
-                "recording and log are exchanged",
+                "the recording and the log are swapped",
                 "give the recording first, then the log",
                 &files.log,
             ));

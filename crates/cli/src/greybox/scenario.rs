@@ -6,7 +6,8 @@ use hovertone_dynamics::{GreyBoxFit, IdentifiedVehicle};
 use hovertone_sim::scenario::{ControllerSection, ScenarioFile, SpreadSection, VehicleSection};
 use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
 
-const HEAD: &str = "# The identified vehicle of `hovertone greybox`. Gains and inertia are identified; the voltage scale and all other numbers are the preset's.\n";
+const HEAD: &str = "# The identified vehicle of `hovertone greybox`. Gains and inertia are identified; the voltage \
+                    scale and all other numbers come from the preset.\n";
 
 /// The identified vehicle, to be flown by `hovertone simulate`: a hover, to which manoeuvres can be added.
 pub(crate) fn scenario_file(fit: &GreyBoxFit, vehicle: &GreyBoxVehicle) -> ScenarioFile {

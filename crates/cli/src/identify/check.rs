@@ -93,7 +93,7 @@ fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path)
         }
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!("; {nearby}"));
         let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
-        Notice::new(what, "correct the name, or put the recordings there")
+        Notice::new(what, "correct the name, or put the recordings into this folder")
     });
     let recordings = plan.loads.iter().flat_map(|load| &load.recordings);
     let broken = recordings.filter_map(|recording| {
@@ -110,24 +110,34 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         matches!(load.force, Force::Weight { gravity_std_m_s2, .. } if gravity_std_m_s2 >= Gravity::UNKNOWN.std_m_s2)
     });
     let loads = experiment.loads.len();
-    let few = format!("{} test the law F = C_f ω² weakly: {LOADS_WANTED} or more are better", counted(loads, "load"));
+    let few = format!(
+        "{} are only a weak test of the law F = C_f ω²: {LOADS_WANTED} loads or more are better",
+        counted(loads, "load")
+    );
     [
         (
             experiment.propeller_diameter_m.is_some(),
             match experiment.config.known.shaft_speed {
-                Some(_) => "the diameter of the propellers is not known: the thrust constant C_f does not need it, but the thrust coefficient C_T is left out",
-                None => "the diameter of the propellers is not known: with it, hovertone can rule out half and double the speed; C_T needs it too",
+                Some(_) => {
+                    "the diameter of the propellers is not given: the thrust coefficient C_T needs it and is \
+                     left out; the thrust constant C_f does not need it"
+                }
+                None => {
+                    "the diameter of the propellers is not given: with the diameter, hovertone can rule out half \
+                     and double the true speed; C_T needs it too"
+                }
             },
             "write propeller_diameter_m under [vehicle]; without an experiment file, give --diameter-m",
         ),
         (
             has_gravity,
-            "the place is not known: gravity differs by 0.5 % on Earth",
+            "the place of the flight is not given, and gravity differs by 0.5 % on Earth",
             "write latitude_deg and height_m under [vehicle]; without an experiment file, give --latitude-deg",
         ),
         (
             experiment.air.is_some(),
-            "the density of the air is not known: the thrust constant C_f does not need it, but the thrust coefficient C_T is left out",
+            "the density of the air is not given: the thrust coefficient C_T needs it and is left out; the thrust \
+             constant C_f does not need it",
             "write [air] with temperature_c and pressure_hpa in an experiment file",
         ),
         (loads == 1 || loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),
@@ -141,11 +151,11 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
 fn verdict(faults: usize, output: Option<&Path>) -> String {
     match (faults, output) {
         (0, Some(folder)) => format!(
-            "ready: all files are there; now run the same command without --check: the results come into {}\n",
+            "ready: all files are there. Now run the same command without --check; it writes the results into {}\n",
             folder.display()
         ),
         (0, None) => {
-            "ready: all files are there; now run the same command without --check, with -o DIR for the report\n"
+            "ready: all files are there. Now run the same command without --check, and add -o DIR for the report\n"
                 .to_owned()
         }
         (faults, _) => format!("not ready: {}\n", counted(faults, "error")),

@@ -50,7 +50,7 @@ impl ExperimentSource {
         let toml = TomlFile::read(
             path,
             KIND,
-            "to hear recordings, write their mass before them, as in --mass 413g hover.mov",
+            "give an experiment file; or, to hear a recording without one, write the mass before it, as in --mass 413g hover.mov",
             SEE_EXAMPLE,
         )?
         .with_content()?;
@@ -95,10 +95,13 @@ fn refuse_folder(path: &Path) -> Result<(), Failure> {
     let file = names.filter(|name| name.extension().is_some_and(|ending| ending == "toml")).min();
     let hint = match file {
         Some(file) => format!("name the file in it: {}", file.display()),
-        None if groups_in(path).is_empty() => "name the experiment file: `hovertone init` writes one".to_owned(),
-        None => format!("to hear its recordings, write their mass before them: --mass 413g={}", path.display()),
+        None if groups_in(path).is_empty() => "give the experiment file; `hovertone init` writes one".to_owned(),
+        None => format!(
+            "to hear the recordings in the folder, write their mass before the folder, as in --mass 413g={}",
+            path.display()
+        ),
     };
-    Err(Failure::failed("this is a folder, and the experiment file is needed", hint, path))
+    Err(Failure::failed("this is a folder, but an experiment file is needed", hint, path))
 }
 
 /// The simulator's model that an experiment names, relative to the folder of the experiment.
@@ -123,8 +126,8 @@ fn meaning_failure(error: &ExperimentError, path: &Path) -> Failure {
             (format!("the experiment file names a vehicle that does not exist: \"{name}\""), preset_hint(name))
         }
         ExperimentError::Vehicle(contradiction @ Contradiction::Rotors { .. }) => {
-            let hint =
-                "leave rotors or preset out under [vehicle]; of a bench, write rotors_running under its [[load]]";
+            let hint = "leave rotors or preset out under [vehicle]; if fewer rotors run on a bench, write rotors_running \
+                 under the [[load]] of the bench";
             (contradiction.to_string(), hint.to_owned())
         }
         ExperimentError::Vehicle(contradiction) => (contradiction.to_string(), contradiction.hint()),

@@ -31,7 +31,7 @@ impl FlownLog {
         let signals = logs_of_motors(flight.speeds_rev_s.clone(), flight.commands.clone(), path)?;
         if signals.is_empty() {
             let hint = "log the speeds that the ESCs report (telemetry), or the commands of the motors";
-            return Err(refused("this log has neither speeds nor commands of motors", hint));
+            return Err(refused("this log has neither rotor speeds nor motor commands", hint));
         }
         let sha256 = wants_hash.then(|| sha256_of_file(path)).transpose();
         let sha256 = sha256.map_err(|error| refused(&format!("the log cannot be read: {error}"), "check the disk"))?;
@@ -72,7 +72,7 @@ impl FlownLog {
 /// What to do, in an experiment file.
 fn hint_of(reason: NotVerified) -> &'static str {
     match reason {
-        NotVerified::TooFewMotors { .. } => "name the log of the same vehicle, or correct vehicle.rotors",
+        NotVerified::TooFewMotors { .. } => "give the log of the same vehicle, or correct rotors under [vehicle]",
         NotVerified::TooLong => "cut the log to the flight",
         reason => reason.hint(),
     }

@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     terminal.flush()?;
     let page = match measured.write()? {
         Some(page) => page_line(&page),
-        None => "page: none; -o DIR writes it, with results.json, tables and figures\n".to_owned(),
+        None => "page: not written; add -o DIR to write the page, results.json, tables and figures\n".to_owned(),
     };
     if !arguments.json {
         terminal.text(&page)?;

@@ -59,7 +59,7 @@ pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
 pub(super) fn refuse_twice(jobs: &mut [LoadJob], source: &ExperimentSource) -> Result<(), Failure> {
     let (hint, path) = match source.typed {
         Some(_) => ("name each recording once", None),
-        None => ("take one of them out of the experiment file, or out of the folder", Some(source.path.as_path())),
+        None => ("remove one of the two from the experiment file, or from the folder", Some(source.path.as_path())),
     };
     refuse_copies(jobs.iter_mut().map(|LoadJob { job, .. }| job), hint, path)
 }
@@ -71,7 +71,7 @@ pub(super) fn found_recordings<'a>(
 ) -> Result<FoundRecordings<'a>, Failure> {
     let root = data_root.unwrap_or(&source.folder);
     if !root.is_dir() && data_root.is_some() {
-        let hint = "give --data-root the folder that holds the recordings";
+        let hint = "give the folder that holds the recordings with --data-root DIR";
         return Err(Failure::failed("there is no such folder", hint, root));
     }
     let (mut jobs, mut missing): (Vec<LoadJob>, Vec<Missing<'_>>) = (Vec::new(), Vec::new());
@@ -122,7 +122,7 @@ pub(super) fn found_recordings<'a>(
 /// The failure of a log that belongs to more than one recording.
 fn several_with_one_log(name: &str, count: usize, source: &ExperimentSource) -> Failure {
     Failure::Usage {
-        what: format!("a log is of one flight, and {name} means {count} recordings"),
+        what: format!("a log belongs to one flight, but {name} matches {count} recordings"),
         hint: "name each recording with its own log: { file = \"a.wav\", log = \"a.ulg\" }".to_owned(),
         path: Some(source.path.clone()),
     }
@@ -162,15 +162,19 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
         list += &format!(" and {} more (--check lists all)", missing.len() - NAMES_MAX);
     }
     let folder = if root.as_os_str().is_empty() { "this folder".to_owned() } else { root.display().to_string() };
-    let notes = if source.has_notes { "; the notes at the top of the file may say where they come from" } else { "" };
+    let notes = if source.has_notes {
+        "; the notes at the top of the experiment file may say where to get the recordings"
+    } else {
+        ""
+    };
     let what = format!("no file in {folder} matches {list}");
     let is_list = |missing: &&Missing<'_>| missing.name.split(',').all(|part| place_of(part.trim(), root).is_file());
     let hint = if let Some(list) = missing.iter().find(is_list) {
-        format!("a comma does not separate recordings: name each of {} by itself", list.name.replace(',', " and "))
+        format!("a comma does not separate recordings: give {} as separate names", list.name.replace(',', " and "))
     } else if source.typed.is_some() {
-        "correct the names: they count from the current folder, or from --data-root".to_owned()
+        "correct the names: they are relative to the current folder, or to the folder of --data-root".to_owned()
     } else if is_root_given {
-        format!("put them into the folder that --data-root names, or name another{notes}")
+        format!("put the recordings into the folder of --data-root, or give another folder{notes}")
     } else {
         format!(
             "correct the names, put the recordings beside the experiment file, or give their folder: --data-root DIR{notes}"
@@ -195,8 +199,8 @@ pub(super) fn folder_without_recordings(place: &Path) -> Option<EmptyFolder> {
     let below = is_named.then(|| groups_below(place))?;
     let shown: Vec<String> = below.iter().take(NAMES_MAX).map(in_words).collect();
     let hint = match shown.is_empty() {
-        true => "name the folder of the recordings".to_owned(),
-        false => format!("name a folder below it: there is {}", shown.join(", ")),
+        true => "give a folder that holds recordings".to_owned(),
+        false => format!("give a folder below it, such as {}", shown.join(", ")),
     };
     Some(EmptyFolder { path: place.to_owned(), what: "this folder holds no recording", hint })
 }

@@ -31,7 +31,7 @@ impl TypedExperiment {
             return Ok(Self { draft, vehicle });
         }
         let what = format!("the experiment is not complete without {}", missing.join("; and "));
-        Err(Failure::usage(what, "add it, or give an experiment file: `hovertone init` writes one"))
+        Err(Failure::usage(what, "add the missing flags, or give an experiment file; `hovertone init` writes one"))
     }
 
     /// The same as an experiment file in the current folder.

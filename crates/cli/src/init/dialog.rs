@@ -35,7 +35,10 @@ impl<R: BufRead, W: Write> Dialog<R, W> {
             let count = self.answers.read_line(&mut line);
             if !matches!(count, Ok(1..)) {
                 self.say("");
-                return Err(Failure::usage("the answers ended: nothing was written", "start `hovertone init` again"));
+                return Err(Failure::usage(
+                    "the input ended before the last answer: nothing was written",
+                    "start `hovertone init` again",
+                ));
             }
             match meaning(Some(line.trim()).filter(|answer| !answer.is_empty())) {
                 Ok(meant) => return Ok(meant),

@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
             &mut Dialog::new(io::stdin().lock(), io::stderr(), width_of(&io::stderr())),
         )?,
         missing => {
-            let what = format!("this is no terminal, so init cannot ask. Add: {}", missing.join("; "));
+            let what = format!("this is not a terminal, so init cannot ask questions. Add: {}", missing.join("; "));
             return Err(Failure::usage(what, "or run `hovertone init` in a terminal"));
         }
     };
@@ -59,9 +59,10 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let name = quoted(&arguments.output.display().to_string());
     let known = &source.experiment.config.known;
     if known.diameter_m.is_none() && known.shaft_speed.is_none() {
-        terminal.say("The diameter of the propellers is not in it. Measure it and add it: with it, half and double the speed can be ruled out.");
+        terminal.say("The file does not have the diameter of the propellers. Measure it, and write it as propeller_diameter_m under \
+             [vehicle]: then hovertone can rule out half and double the true speed.");
     }
-    terminal.say(&format!("Look at what it would do: hovertone identify {name} --check"));
+    terminal.say(&format!("Check the file:           hovertone identify {name} --check"));
     terminal.say(&format!("Identify the constant:    hovertone identify {name} -o results"));
     Ok(Ending::Done)
 }
@@ -76,10 +77,10 @@ fn with_recordings(mut draft: Draft) -> Result<Draft, Failure> {
                     if let Some(folder) = closed_folder(Path::new(name)) {
                         return Err(Failure::failed(CLOSED_FOLDER, GET_RIGHT, &folder));
                     }
-                    let what = "no recording is there, or none that the pattern matches: nothing was written";
+                    let what = "no recording has this name or matches this pattern: nothing was written";
                     return Err(Failure::failed(
                         what,
-                        "correct the name: it counts from the current folder",
+                        "correct the name: it is relative to the current folder",
                         Path::new(name),
                     ));
                 }
@@ -100,8 +101,8 @@ fn file_text(draft: &Draft, vehicle: Option<&Vehicle>, output: &Path) -> Result<
     }
     let name = output.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let head = format!(
-        "# Written by `hovertone init` (hovertone {VERSION}). Change what you like: docs/formats.md lists all keys.\n\
-         # What it would do:       hovertone identify {name} --check\n\
+        "# Written by `hovertone init` (hovertone {VERSION}). You can change it: docs/formats.md lists all keys.\n\
+         # Check this file:        hovertone identify {name} --check\n\
          # Identify the constant:  hovertone identify {name} -o results\n"
     );
     Ok(draft.experiment_text(&head, vehicle))

@@ -25,7 +25,7 @@ pub(super) fn complete<R: BufRead, W: Write>(
     folder: &Path,
     dialog: &mut Dialog<R, W>,
 ) -> Result<Draft, Failure> {
-    dialog.say("A few questions, then the experiment file is written. Enter takes the answer in brackets.\n");
+    dialog.say("hovertone asks a few questions, then writes the experiment file. Press Enter to take the answer in brackets.\n");
     let known = known_vehicles()?;
     if draft.preset.is_none() && draft.blades.is_none() && draft.gear.is_none() {
         draft.preset = ask_vehicle(&known, dialog)?;
@@ -34,7 +34,7 @@ pub(super) fn complete<R: BufRead, W: Write>(
     if draft.missing(vehicle).iter().any(|flag| flag.contains("--blades")) {
         draft.blades = Some(dialog.ask("Blades of each propeller:", |answer| number(answer, None, BLADES_MAX))?);
         if vehicle.is_none() && draft.gear.is_none() {
-            let question = "Gear between motor and rotor, as teeth PINION:WHEEL [none]:";
+            let question = "Gear between motor and rotor, as numbers of teeth PINION:WHEEL, such as 8:69 [none]:";
             draft.gear = dialog.ask(question, gear_of)?;
         }
     }
@@ -44,9 +44,9 @@ pub(super) fn complete<R: BufRead, W: Write>(
     }
     let knows_diameter = vehicle.is_some_and(|vehicle| vehicle.propeller_diameter_m.is_some());
     if draft.diameter_m.is_none() && !knows_diameter {
-        dialog.say("\nWith the diameter of the propellers, hovertone can rule out half and double the speed.");
+        dialog.say("\nWith the diameter of the propellers, hovertone can rule out half and double the true speed.");
         draft.diameter_m =
-            dialog.ask("Diameter, from tip to tip, as 200mm, 8in or 0.2 (in m) [not known]:", diameter_m)?;
+            dialog.ask("Diameter from tip to tip, such as 200mm, 8in or 0.2 (in m) [not known]:", diameter_m)?;
     }
     if draft.loads.is_empty() {
         draft.loads = ask_loads(vehicle, folder, dialog)?;
@@ -62,8 +62,8 @@ fn ask_vehicle<R: BufRead, W: Write>(known: &[Vehicle], dialog: &mut Dialog<R, W
         None => Ok(None),
         Some(typed) if names.contains(&typed) => Ok(Some(typed.to_owned())),
         Some(typed) => Err(match nearest(typed, names.iter().copied()) {
-            Some(name) => format!("There is no \"{typed}\". Did you mean \"{name}\"?"),
-            None => format!("There is no \"{typed}\". Enter goes on without a known vehicle."),
+            Some(name) => format!("There is no vehicle \"{typed}\". Did you mean \"{name}\"?"),
+            None => format!("There is no vehicle \"{typed}\". Press Enter to go on without a known vehicle."),
         }),
     })
 }
@@ -77,8 +77,10 @@ fn ask_loads<R: BufRead, W: Write>(
     let mut loads = Vec::new();
     let found = offered(folder);
     if !found.is_empty() {
-        dialog
-            .say("\nThe mass as flown, with battery and load, in kg (0.413) or g (413g). Enter leaves recordings out.");
+        dialog.say(
+            "\nFor each line, give the mass in flight, with battery and load, in kg (0.413) or g (413g). Press \
+             Enter to leave the recordings out.",
+        );
     }
     for Offer { name, words } in found {
         let mass = dialog.ask(&format!("{words}:"), |answer| optional_mass(answer, vehicle))?;
@@ -142,9 +144,11 @@ fn optional_mass(answer: Option<&str>, vehicle: Option<&Vehicle>) -> Result<Opti
     let mass_kg = mass_kg_from_text(typed)?;
     let said = SaidOfVehicle { mass_kg: Some(mass_kg), ..SaidOfVehicle::default() };
     match vehicle.map(|vehicle| vehicle.check_said(&said)) {
-        Some(Err(Contradiction::Mass { known_kg, .. })) => {
-            Err(format!("That is {}, and this vehicle weighs about {}.", mass_words(mass_kg), mass_words(known_kg)))
-        }
+        Some(Err(Contradiction::Mass { known_kg, .. })) => Err(format!(
+            "That is {}, but this vehicle weighs about {}. Check the number and its unit.",
+            mass_words(mass_kg),
+            mass_words(known_kg)
+        )),
         _ => Ok(Some(mass_kg)),
     }
 }
@@ -216,7 +220,7 @@ mod tests {
         let masses: Vec<f64> = draft.loads.iter().map(|load| load.mass_kg).collect();
         assert_eq!(masses, [0.413, 0.444], "{asked}");
         assert!(draft.loads[0].recordings[0].ends_with("no_hull/*.MOV"), "{draft:?}");
-        for words in ["half and double the speed", "2 recordings", "talk.mp3:", "Known vehicles: ardrone"] {
+        for words in ["half and double the true speed", "2 recordings", "talk.mp3:", "Known vehicles: ardrone"] {
             assert!(asked.contains(words), "{words}:\n{asked}");
         }
     }

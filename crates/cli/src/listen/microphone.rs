@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 use cpal::{Device, FromSample, Sample, SampleFormat, SizedSample, Stream, SupportedStreamConfig};
+use hovertone_report::counted;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::Duration;
 
@@ -10,7 +11,8 @@ use std::time::Duration;
 const BLOCKS_WAITING: usize = 1000;
 /// A device that sends nothing for so long was removed.
 const SILENT_DEVICE: Duration = Duration::from_secs(5);
-const CHECK_DEVICE: &str = "check that it is plugged in and that this program may use it, or give --from-file";
+const CHECK_DEVICE: &str = "check that the microphone is plugged in and that hovertone may use it, or give a \
+                            recording with --from-file FILE";
 
 /// An open microphone.
 pub(crate) struct Microphone {
@@ -31,8 +33,14 @@ impl Microphone {
         let config = device.default_input_config().map_err(|error| failed(&error))?;
         let count = usize::from(config.channels());
         if let Some(asked) = channel.filter(|asked| !(1..=count).contains(asked)) {
-            let what = format!("channel {asked} does not exist: the microphone has {count}, numbered from 1");
-            return Err(Failure::usage(what, "leave --channel out for the mean of all"));
+            let what = format!(
+                "channel {asked} does not exist: the microphone has {}, numbered from 1",
+                counted(count, "channel")
+            );
+            return Err(Failure::usage(
+                what,
+                "give another number, or leave --channel out to hear the mean of all channels",
+            ));
         }
         let (sender, blocks) = sync_channel(BLOCKS_WAITING);
         let mix = Mix { count, channel: channel.map(|channel| channel - 1), sender };
@@ -41,7 +49,7 @@ impl Microphone {
             SampleFormat::I16 => stream_of::<i16>(&device, &config, mix),
             SampleFormat::I32 => stream_of::<i32>(&device, &config, mix),
             SampleFormat::U16 => stream_of::<u16>(&device, &config, mix),
-            other => return Err(failed(&format!("its samples are of the kind {other}"))),
+            other => return Err(failed(&format!("its sound has the format {other}, which hovertone cannot read"))),
         }?;
         stream.play().map_err(|error| failed(&error))?;
         Ok(Self {

@@ -179,7 +179,7 @@ fn draw_choices(frame: &mut Frame<'_>, area: Rect, view: &View) {
     if view.choices.is_empty() {
         return;
     }
-    let first = Line::from(format!(" Which one is right? Press its number, or start again: {}.", view.advice));
+    let first = Line::from(format!(" Which speed is right? Press its number. Or start again, and {}.", view.advice));
     let line = |(index, choice): (usize, &String)| Line::from(format!("   {}  {choice}", index + 1));
     let lines = std::iter::once(first).chain(view.choices.iter().take(9).enumerate().map(line));
     frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()).yellow(), area);

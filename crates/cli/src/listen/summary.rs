@@ -73,26 +73,26 @@ impl LiveSummary {
             if self.has_changed() {
                 let (slowest, fastest) = (fixed(slowest_rev_s, 1), fixed(fastest_rev_s, 1));
                 return format!(
-                    "no mean: the speed changed between {slowest} and {fastest} rev/s; it was heard in {heard_s} s of {end_s} s"
+                    "no mean: the speed changed between {slowest} and {fastest} rev/s; a speed was heard in {heard_s} s of {end_s} s"
                 );
             }
             let count = self.settled_count as f64;
             let mean = with_uncertainty(self.sum_rev_s / count, Some(self.sum_std_rev_s / count));
-            format!("mean: {mean} rev/s (k = 2), from {heard_s} s of {end_s} s")
+            format!("mean: {mean} rev/s (± covers about 95 % of cases, k = 2), from {heard_s} s of {end_s} s")
         });
         let mut words = match mean {
             Some(mean) => mean,
-            None if self.listening_count == self.count => format!("{end_s} s are too short for a first speed"),
+            None if self.listening_count == self.count => format!("no speed: {end_s} s of sound are too short"),
             None if self.settled_count > 0 => {
-                format!("no single speed: in {} s of {end_s} s one speed seemed right", part_s(self.settled_count))
+                format!("no mean: one speed was clear in only {} s of {end_s} s", part_s(self.settled_count))
             }
             None if self.ambiguous_count > 0 => format!("no single speed was heard in {end_s} s"),
             None => format!("no speed was heard in {end_s} s"),
         };
         if self.ambiguous_count > 0 {
-            words += &format!("; for {} s several speeds are possible", part_s(self.ambiguous_count));
+            words += &format!("; for {} s several speeds were possible", part_s(self.ambiguous_count));
             if !self.is_settled() {
-                words += &format!("; to find the right one, {advice}");
+                words += &format!("; to find the right speed, {advice}");
             }
         }
         Some(words + "\n")
@@ -121,8 +121,8 @@ mod tests {
     #[test]
     fn the_mean_is_over_the_time_that_had_one_speed() {
         let sentence = summary_of(&[None, Some(60.0), Some(61.0), None]).in_words("give --rotors").unwrap();
-        assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (k = 2), from 0.2 s of 0.4 s\n");
-        let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s; it was heard in 0.3 s of 0.3 s\n";
+        assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (± covers about 95 % of cases, k = 2), from 0.2 s of 0.4 s\n");
+        let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s; a speed was heard in 0.3 s of 0.3 s\n";
         assert_eq!(summary_of(&[Some(52.8), Some(91.8), Some(70.0)]).in_words("give --rotors").unwrap(), changed);
         assert_eq!(summary_of(&[None; 20]).in_words("give --rotors").unwrap(), "no speed was heard in 2.0 s\n");
         assert_eq!(summary_of(&[]).in_words("give --rotors"), None);
@@ -146,15 +146,15 @@ mod tests {
             summary.in_words("give --rotors").unwrap()
         };
         use LiveStatus::{Ambiguous, Listening, Ok};
-        assert_eq!(of_status(&[Listening; 2]), "2.0 s are too short for a first speed\n");
-        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible; to find the right one, \
-        give --rotors\n";
+        assert_eq!(of_status(&[Listening; 2]), "no speed: 2.0 s of sound are too short\n");
+        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds were possible; to find the right speed, give --rotors\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ambiguous]), none);
-        let some = "mean: 60.00 ± 0.20 rev/s (k = 2), from 1.0 s of 3.0 s; for 1.0 s several speeds are possible\n";
+        let some = "mean: 60.00 ± 0.20 rev/s (± covers about 95 % of cases, k = 2), from 1.0 s of 3.0 s; for 1.0 s \
+                    several speeds were possible\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ok]), some);
         // what the later sound leaves open is open
-        let open = "no single speed: in 1.0 s of 3.0 s one speed seemed right; for 1.0 s several speeds are possible; to find the right one, \
-        give --rotors\n";
+        let open = "no mean: one speed was clear in only 1.0 s of 3.0 s; for 1.0 s several speeds were possible; to \
+                    find the right speed, give --rotors\n";
         assert_eq!(of_status(&[Listening, Ok, Ambiguous]), open);
         assert!(of_status(&[Ok, Ok, Ambiguous]).starts_with("mean: 60.00"));
     }

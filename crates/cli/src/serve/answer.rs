@@ -53,10 +53,10 @@ impl Answer {
 /// The answer to a request.
 pub(super) fn answer_to(asked: &Asked<'_>, guests: &Guests) -> Answer {
     let Some(host) = asked.host.filter(|host| guests.is_own_host(host)) else {
-        return Answer::refused(421, "this address is not served here");
+        return Answer::refused(421, "hovertone has no page at this address");
     };
     if asked.origin.is_some_and(|origin| origin != format!("http://{host}")) {
-        return Answer::refused(403, "another page may not ask this one");
+        return Answer::refused(403, "other web pages may not use this address");
     }
     if !["GET", "HEAD"].contains(&asked.method) {
         return Answer::refused(405, "the page can only be read").with("Allow", "GET, HEAD");
@@ -66,7 +66,10 @@ pub(super) fn answer_to(asked: &Asked<'_>, guests: &Guests) -> Answer {
         return Answer::refused(303, "come in").with("Set-Cookie", cookie).with("Location", "/");
     }
     if !guests.may_enter(asked.cookie) {
-        return Answer::refused(403, "open the address that `hovertone serve` printed, with its token");
+        return Answer::refused(
+            403,
+            "open the whole address that `hovertone serve` printed, with the token at its end",
+        );
     }
     match file_at(path) {
         Some(file) => Answer::new(200, media_type(file.name), file.gzip).with("Content-Encoding", "gzip"),

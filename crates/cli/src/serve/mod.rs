@@ -21,8 +21,12 @@ const THREADS: usize = 4;
 pub(crate) fn run(arguments: &ServeArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let asked = SocketAddr::new(arguments.address, arguments.port);
     let server = Server::http(asked).map_err(|error| {
-        let hint = "give another --port, or --port 0 for any that is free; --address must be one of this computer";
-        Failure::Failed { what: format!("{asked} cannot be served: {error}"), hint: hint.to_owned(), path: None }
+        let hint = "give another --port, or --port 0 for any free port; --address must be an address of this computer";
+        Failure::Failed {
+            what: format!("the page cannot be served at {asked}: {error}"),
+            hint: hint.to_owned(),
+            path: None,
+        }
     })?;
     let at = server.server_addr().to_ip().unwrap_or(asked);
     let guests = Guests::of(at)?;
@@ -30,10 +34,10 @@ pub(crate) fn run(arguments: &ServeArguments, terminal: &mut Terminal) -> Result
     terminal.text(&format!("{url}\n"))?;
     terminal.flush()?;
     if !at.ip().is_loopback() {
-        terminal.say("other computers can open this address with its token; Ctrl-C ends it");
+        terminal.say("other computers can open this address with its token; Ctrl-C stops hovertone");
     }
     if !arguments.no_open && open::that_detached(&url).is_err() {
-        terminal.say("no browser could be opened: open this address in one");
+        terminal.say("no browser could be opened: open this address in a browser yourself");
     }
     serve(&Arc::new(server), &Arc::new(guests));
     Ok(Ending::Done)

@@ -87,7 +87,7 @@ fn write_rows(table: &mut csv::Writer<File>, rows: &mut Vec<FlightState>) -> Res
 
 /// The failure for a flight that leaves the range of the sound model.
 fn stopped(error: &ScenarioError, flown: &ScenarioRun, source: &ScenarioSource) -> Failure {
-    let what = format!("the flight cannot go on after {:.2} s: {error}", flown.time_s());
+    let what = format!("the simulated flight stopped after {:.2} s: {error}", flown.time_s());
     let hint =
         "keep the flight within the room and near the microphones, or remove [room] from the scenario".to_owned();
     Failure::Failed { what, hint, path: Some(source.path.clone()) }

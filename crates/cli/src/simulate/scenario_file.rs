@@ -39,7 +39,11 @@ impl ScenarioSource {
             let table = folder.join(name);
             let text = fs::read_to_string(&table).map_err(|error| {
                 let what = format!("the table of commands cannot be read: {error}");
-                Failure::failed(what, "its name counts from the folder of the scenario file", &table)
+                Failure::failed(
+                    what,
+                    "check the name of the table: it is relative to the folder of the scenario file",
+                    &table,
+                )
             })?;
             tables.insert(name.to_owned(), text);
         }
@@ -78,10 +82,11 @@ impl ScenarioSource {
             false => ("mass_kg", vehicle_kg),
         };
         let what = format!(
-            "{key} = {mass_kg}: the vehicle is too heavy to hover: its motors would need {needed_v:.0} V, and its battery has {battery_v:.1} V"
+            "{key} = {mass_kg}: the vehicle is too heavy to hover: its motors would need {needed_v:.0} V, but its \
+             battery has {battery_v:.1} V"
         );
         let hint = if mass_kg > MASS_ALONE_KG_MAX {
-            format!("masses are in kilograms: {mass_kg} g are {}", mass_kg / 1e3)
+            format!("masses are in kilograms: for {mass_kg} g write {}", mass_kg / 1e3)
         } else {
             "give a smaller mass (in kilograms), or another vehicle".to_owned()
         };

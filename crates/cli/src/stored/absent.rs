@@ -9,11 +9,11 @@ use std::path::Path;
 #[cfg(feature = "archive")]
 use std::path::PathBuf;
 
-const WHAT: &str = "this hovertone was built without stores";
+const WHAT: &str = "this hovertone was built without stores, so it cannot read addresses such as s3:// or https://";
 
 #[cfg(feature = "archive")]
 fn refused(address: &Path) -> Failure {
-    let hint = "build it with them: cargo build --release --features stores; or copy the recordings to a disk";
+    let hint = "copy the recordings to a disk, or build hovertone with `cargo build --release --features stores`";
     Failure::usage(format!("{}: {WHAT}", address.display()), hint)
 }
 
@@ -43,6 +43,6 @@ pub(crate) fn state_of(_: &Path) -> String {
 
 /// Opens nothing.
 pub(crate) fn opened(_: &Path, _: &OpenOptions) -> Result<Recording, MediaError> {
-    let advice = "copy the file to a disk, or build hovertone with stores: cargo build --release --features stores";
-    Err(MediaError::AtAddress(format!("{WHAT}, and reads no addresses; {advice}")))
+    let advice = "copy the file to a disk, or build hovertone with `cargo build --release --features stores`";
+    Err(MediaError::AtAddress(format!("{WHAT}; {advice}")))
 }

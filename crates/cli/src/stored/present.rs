@@ -60,9 +60,11 @@ pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
     let file = file_at(path).map_err(|error| failure(&error, path))?;
     match file.open().and_then(|mut file| file.read_to_string(&mut text)) {
         Ok(_) => Ok(text),
-        Err(error) => {
-            Err(Failure::failed(format!("this list cannot be read: {error}"), "check it and the connection", path))
-        }
+        Err(error) => Err(Failure::failed(
+            format!("this list cannot be read: {error}"),
+            "check the address and the connection",
+            path,
+        )),
     }
 }
 

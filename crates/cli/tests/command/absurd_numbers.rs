@@ -111,7 +111,7 @@ fn stated_uncertainties_that_are_too_large_are_named_where_the_law_cannot_be_tes
 fn stated_uncertainties_beyond_all_measure_are_refused_by_their_row() {
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("stand.csv");
-    for (thrust_std_g, how) in [("1e-200", "too small to be fitted"), ("1e200", "too large to be fitted")] {
+    for (thrust_std_g, how) in [("1e-200", "too small for a fit"), ("1e200", "too large for a fit")] {
         let rows = format!("3000,70,0.5\n3600,101,{thrust_std_g}\n4200,137,0.5\n5000,195,{thrust_std_g}\n");
         fs::write(&table, format!("rpm,thrust_g,thrust_std_g\n{rows}")).unwrap();
         let run = hovertone(&["fit", text(&table)]).ends_with(2);
@@ -147,7 +147,7 @@ fn a_thrust_without_a_unit_is_told_how_to_name_it() {
     let table = folder.path().join("stand.csv");
     fs::write(&table, "rpm,thrust\n3000,70\n3600,101\n4200,137\n").unwrap();
     let run = hovertone(&["fit", text(&table)]).ends_with(2);
-    for words in ["column \"thrust\" has no unit", "name its unit in the header: thrust_g"] {
+    for words in ["column \"thrust\" has no unit", "write the unit into the header: thrust_g"] {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
 }

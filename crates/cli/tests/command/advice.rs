@@ -29,11 +29,11 @@ fn identify_names_keys_of_its_file_and_flags_of_its_own() {
 #[test]
 fn a_flag_beside_an_experiment_file_is_told_its_key() {
     let keys =
-        [("--order=69", "order under [tone]"), ("--from=3", "from_s under [[load]]"), ("--mass=0.4", "mass_kg in")];
+        [("--order=69", "order under [tone]"), ("--from=3", "from_s under [[load]]"), ("--mass=0.4", "mass_kg under")];
     for (flag, key) in keys {
-        refused_with(&["identify", "e.toml", flag], &["write it into the experiment file, as", key]);
+        refused_with(&["identify", "e.toml", flag], &["in the experiment file", key]);
     }
-    refused_with(&["identify", "--order", "69"], &["only an experiment file has a place for it", "order under [tone]"]);
+    refused_with(&["identify", "--order", "69"], &["in an experiment file instead", "order under [tone]"]);
 }
 
 #[test]
@@ -56,10 +56,11 @@ fn a_folder_or_a_pattern_in_place_of_a_recording_is_told_what_it_holds() {
     let (first, pattern) = (folder.path().join("a.wav"), folder.path().join("*.wav"));
     for command in [&["listen", "--from-file"][..], &["spectrogram", "-o", "x.png"]] {
         let of_folder = hovertone(&[command, &[text(folder.path())]].concat()).ends_with(1).stderr;
-        let words = format!("this is a folder, not a recording; name a recording in it, such as {}", text(&first));
+        let words =
+            format!("this is a folder, not a recording; give a recording in the folder, such as {}", text(&first));
         assert!(of_folder.contains(&words), "{of_folder}");
         let of_pattern = hovertone(&[command, &[text(&pattern)]].concat()).ends_with(1).stderr;
-        let words = format!("one recording is heard at a time; name one, such as {}", text(&first));
+        let words = format!("this command hears one recording at a time; give one recording, such as {}", text(&first));
         assert!(of_pattern.contains(&words), "{of_pattern}");
     }
 }
@@ -70,10 +71,13 @@ fn tables_of_other_languages_are_told_what_to_change() {
     let table = folder.path().join("a.csv");
     let german = "Drehzahl (U/min);Schub (g)\n3000;112,5\n4000;201,3\n";
     fs::write(&table, german).unwrap();
-    refused_with(&["fit", text(&table)], &["no column holds a speed", "rename its header, as in speed_rpm"]);
+    refused_with(
+        &["fit", text(&table)],
+        &["no column holds a speed", "rename the header of the right column, as in speed_rpm"],
+    );
     refused_with(
         &["log", text(&table)],
-        &["no column has a name for the time", "rename the header of the times", "--column"],
+        &["no header names the time", "rename the header of the time column", "--column"],
     );
     let wide: Vec<u8> = german.encode_utf16().flat_map(u16::to_le_bytes).collect();
     fs::write(&table, [&b"\xff\xfe"[..], &wide].concat()).unwrap();
@@ -154,7 +158,10 @@ fn a_rotor_without_a_gear_is_told_that_no_mesh_is_heard() {
     write_noise(&sound, 4.0);
     let said = hovertone(&["speed", text(&sound), "--vehicle", "ardrone"]).ends_with(3).stderr;
     assert!(
-        said.contains("the tone of the gear (order 69) is not heard at 920 to 8280 Hz, as of 13 to 120 rev/s"),
+        said.contains(
+            "the tone of the gear (69 times the rotor speed) is not heard at 920 to 8280 Hz, where 13 to 120 rev/s \
+            would sound"
+        ),
         "{said}"
     );
     assert!(said.contains("if the rotors have no gear, give --blades N alone"), "{said}");

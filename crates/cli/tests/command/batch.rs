@@ -59,8 +59,8 @@ fn each_recording_is_a_row_with_the_numbers_of_speed() {
     fs::write(archive.join("notes.md"), "no recording").unwrap();
     let run = batch(&archive, &out, &["--json"]).ends_with(3);
     assert_eq!(run.json_lines()[0]["counts"]["error"], 2);
-    let unsure = run.stderr.lines().find(|line| line.contains("1 recording has no sure speed: ")).unwrap_or_default();
-    assert!(unsure.contains("noise.wav") && unsure.contains("`hovertone speed` and the same flags"), "{}", run.stderr);
+    let unsure = run.stderr.lines().find(|line| line.contains("1 recording has no speed, or")).unwrap_or_default();
+    assert!(unsure.contains("noise.wav") && unsure.contains("recordings and the same flags"), "{}", run.stderr);
     let rows = table(&out.join("recordings.parquet"));
     let files = texts(&rows, "file");
     assert_eq!(files.len(), 7, "{files:?}");
@@ -231,7 +231,10 @@ fn a_folder_of_something_else_is_refused_with_what_differs() {
     write_archive(&archive, 2);
     fs::create_dir(&full).unwrap();
     fs::write(full.join("notes.txt"), "precious").unwrap();
-    refused_with(&["batch", text(&archive), "-o", text(&full)], &["has files that no earlier run", "-o DIR"]);
+    refused_with(
+        &["batch", text(&archive), "-o", text(&full)],
+        &["has files that do not come from an earlier run", "-o DIR"],
+    );
     assert_eq!(fs::read_dir(&full).unwrap().count(), 1, "nothing was written");
     batch(&archive, &out, &[]).ends_with(0);
     let words = ["batch", text(&archive), "-o", text(&out), "--rotors", "1", "--blades"];
@@ -317,7 +320,7 @@ fn a_damaged_part_is_heard_again() {
     let bytes = fs::read(&part).unwrap();
     fs::write(&part, &bytes[..bytes.len() / 2]).unwrap();
     let run = batch(&archive, &out, &[]).ends_with(1);
-    assert!(run.stderr.contains("was damaged and is removed") && run.stderr.contains("run the same command again"));
+    assert!(run.stderr.contains("hovertone removes it") && run.stderr.contains("run the same command again"));
     batch(&archive, &out, &[]).ends_with(0);
     assert_eq!(before, results(&out));
 }
@@ -347,7 +350,7 @@ fn a_comparison_names_what_has_changed() {
     assert_eq!(itself["rotors"][0]["has_changed"], false);
     assert!(itself["is_labelled"] == false && itself["rotors"][0]["is_rotor_known"] == true, "{itself}");
     let none = hovertone(&["batch-compare", text(&at("old")), words[2]]).ends_with(1);
-    assert!(none.stderr.contains("not a folder that `hovertone batch -o` wrote"), "{}", none.stderr);
+    assert!(none.stderr.contains("`hovertone batch` did not write this folder"), "{}", none.stderr);
 }
 
 /// A name that is no text in UTF-8 is shown as well as it can be, and its recording is heard.

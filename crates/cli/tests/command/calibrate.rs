@@ -27,7 +27,7 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     write_bench(&sound, 21_000.0, 400.0);
     let failed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(3);
     for words in [
-        "order: pass",
+        "order (lines per turn): pass",
         "clock: fail, it runs fast by",
         "\nresult: fail (clock)\n",
         "--clock-correction-ppm",
@@ -79,16 +79,17 @@ fn an_order_whose_tone_is_hardly_heard_does_not_pass() {
     };
     // two blades without a gear; the blades of the vehicle give the right speed, and the mesh of its gear is not there
     let geared = with(&["--vehicle", "ardrone"]).ends_with(3);
-    for words in
-        ["not decided: the tone of order 69 is not heard for ", "give --blades 2 alone, in place of the vehicle"]
-    {
+    for words in [
+        "not decided: the tone of order 69 (lines per turn) is missing for ",
+        "give --blades 2 alone, in place of the vehicle",
+    ] {
         assert!(geared.stderr.contains(words), "{words}:\n{}", geared.stderr);
     }
     assert!(!geared.stdout.contains("pass"), "{}", geared.stdout);
     let json = with(&["--vehicle", "ardrone", "--json"]).ends_with(3).json_lines().remove(0);
     assert_eq!((json["status"].as_str(), json["passes"].as_bool()), (Some("tone_hardly_heard"), None));
     let bladed = with(&["--blades", "2", "--band", "185:195"]).ends_with(0);
-    assert!(bladed.stdout.contains("order: pass, it is 2"), "{}", bladed.stdout);
+    assert!(bladed.stdout.contains("order (lines per turn): pass, it is 2"), "{}", bladed.stdout);
 }
 
 #[test]
@@ -96,12 +97,17 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
     write_bench(&sound, 21_000.0, 0.0);
-    assert!(calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0).stdout.contains("order: pass, it is 2"));
+    assert!(
+        calibrated(&sound, &["--vehicle", "crazyflie"])
+            .ends_with(0)
+            .stdout
+            .contains("order (lines per turn): pass, it is 2")
+    );
     let wrong = calibrated(&sound, &["--order", "1", "--band", "650:750"]).ends_with(3);
     for words in [
-        "order: fail",
-        "the order, 1: it may be 2. Then give --order 2",
-        "the known speed: a tachometer that sees each blade reads a multiple. Then give --tachometer-rpm 42000",
+        "order (lines per turn): fail",
+        "the order, 1: it may be 2. If so, give --order 2",
+        "the known speed: a tachometer that counts each blade shows a multiple of the speed. If yours does, give --tachometer-rpm 42000",
         "--order 2",
         "--band 341",
         "\nresult: fail (order of the tone)\n",
@@ -112,11 +118,16 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     // turns per second as if they were per minute
     let slip =
         hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "350"]).ends_with(3);
-    assert!(slip.stdout.contains("350 turns per second are --tachometer-rpm 21000"), "{}", slip.stdout);
+    assert!(
+        slip.stdout
+            .contains("Does the rotor turn 350 times per second, not per minute? Then give --tachometer-rpm 21000"),
+        "{}",
+        slip.stdout
+    );
     assert!(!slip.stdout.contains("clock"), "{}", slip.stdout);
     let other =
         hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "15000"]).ends_with(3);
-    assert!(other.stdout.contains("No other order of the tone gives this ratio"), "{}", other.stdout);
+    assert!(other.stdout.contains("No other order gives this ratio"), "{}", other.stdout);
 }
 
 #[test]
@@ -126,7 +137,7 @@ fn a_known_number_of_another_part_is_asked_for() {
     write_bench(&sound, 21_000.0, 0.0);
     let shaft = hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--true-hz", "350"]).ends_with(3);
     assert!(
-        shaft.stdout.contains("Was 350 Hz the speed of the shaft? Then give --tachometer-rpm 21000"),
+        shaft.stdout.contains("Does the shaft turn 350 times per second? Then give --tachometer-rpm 21000"),
         "{}",
         shaft.stdout
     );
@@ -138,7 +149,7 @@ fn a_known_number_of_another_part_is_asked_for() {
         hovertone(&["calibrate", text(&geared), "--vehicle", "ardrone", "--tachometer-rpm", "29653"]).ends_with(3);
     assert!(
         motor.stdout.contains(
-            "that of the motor? Then give the speed of the rotor behind the gear 8:69: --tachometer-rpm 3438"
+            "the speed of the motor? Then give the speed of the rotor, after the gear 8:69: --tachometer-rpm 3438"
         ),
         "{}",
         motor.stdout
@@ -202,7 +213,11 @@ fn every_pure_tone_calibrates_a_good_clock() {
     }
     for hz in ["500", "7600"] {
         let none = hovertone(&["calibrate", "--true-hz", hz, text(&path)]).ends_with(3);
-        assert!(none.stdout.is_empty() && none.stderr.contains("no clear line of 2 s or more"), "{}", none.stderr);
+        assert!(
+            none.stdout.is_empty() && none.stderr.contains("no clear tone that lasts 2 s or more"),
+            "{}",
+            none.stderr
+        );
     }
     let high = hovertone(&["calibrate", "--true-hz", "30000", text(&path)]).ends_with(1);
     assert!(high.stderr.contains("no sound above 22050 Hz"), "{}", high.stderr);
@@ -226,7 +241,11 @@ fn a_wide_uncertainty_decides_nothing() {
         "{}",
         open.stdout
     );
-    assert!(open.stdout.contains("the ± comes from the known number: measure it more exactly"), "{}", open.stdout);
+    assert!(
+        open.stdout.contains("most of the ± comes from the known number: measure it more exactly"),
+        "{}",
+        open.stdout
+    );
     assert!(run("30", &["--json"]).ends_with(3).json_lines()[0]["passes"].is_null());
     run("30", &["--clock-ppm", "80"]).ends_with(0);
 }
@@ -236,7 +255,7 @@ fn a_wide_uncertainty_decides_nothing() {
 fn several_rotors_are_refused_and_one_is_not_assumed_in_silence() {
     refused_with(
         &["calibrate", "a.wav", "--vehicle", "ardrone", "--tachometer-rpm", "3600", "--rotors", "4"],
-        &["4 rotors turn", "one rotor that runs alone, and give --rotors 1"],
+        &["--rotors 4: each rotor has its own speed", "one rotor that runs alone, and give --rotors 1"],
     );
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
@@ -272,7 +291,10 @@ fn four_rotors_check_no_clock() {
     }
     let slip = ["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "350"];
     let slip = hovertone(&slip).ends_with(3).stderr;
-    assert!(slip.contains("350 turns per second are --tachometer-rpm 21000"), "{slip}");
+    assert!(
+        slip.contains("Does the rotor turn 350 times per second, not per minute? Then give --tachometer-rpm 21000"),
+        "{slip}"
+    );
 }
 
 #[test]
@@ -302,7 +324,7 @@ fn an_ambiguous_sound_is_answered_with_flags_that_are_not_refused() {
     let sound = real.join("HELICOPTER_007.flac");
     let said = |more: &[&str]| hovertone(&[&["calibrate", text(&sound)], more].concat()).ends_with(3).stderr;
     let slow = said(&["--blades", "2", "--tachometer-rpm", "100"]);
-    assert!(slow.contains("100 rpm, is none of them") && slow.contains("--tachometer-rpm 6000"), "{slow}");
+    assert!(slow.contains("100 rpm, is not one of them") && slow.contains("--tachometer-rpm 6000"), "{slow}");
     assert!(!slow.contains("--band"), "{slow}");
     let known = said(&["--blades", "2", "--tachometer-rpm", "4500"]);
     assert!(known.contains("give --band 146:154"), "{known}");

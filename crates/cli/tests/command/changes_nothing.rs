@@ -11,7 +11,7 @@ fn a_flag_that_changes_nothing_is_refused() {
     refused_with(&trace, &["--gaussian-threshold-share changes nothing", "give --method gaussian"]);
     let plan = ["fit", "--plan", "--mass-kg", "0.413"];
     for flag in ["--temperature-c", "--pressure-hpa", "--humidity-percent"] {
-        refused_with(&[&plan[..], &[flag, "20"]].concat(), &[flag, "a plan does not use the air"]);
+        refused_with(&[&plan[..], &[flag, "20"]].concat(), &[flag, "--plan does not use the density of the air"]);
     }
     refused_with(&[&plan[..], &["--height-m", "20"]].concat(), &["--height-m 20 alone does not give the gravity"]);
 }

@@ -13,7 +13,7 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
     for (flags, vehicle, tone, words) in [
         (&["--blades", "3"][..], "blades = 3", "", ["blades = 3", "have 2 blades"]),
         (&["--gear", "8:68"], "gear = { pinion = 8, wheel = 68 }", "", ["gear = 8:68", "is 8:69"]),
-        (&["--order", "46"], "", "order = 46", ["order = 46", "tones of order 69"]),
+        (&["--order", "46"], "", "order = 46", ["order = 46", "is at 69 times"]),
         (&["--order", "4"], "", "order = 4", ["order = 4", "harmonics"]),
         (&["--band", "100:130"], "", "band_hz = [100.0, 130.0]", ["means 1.4 to 1.9 rev/s", "920 to 8280 Hz"]),
         (&["--rotors", "6"], "rotors = 6", "", ["rotors = 6", "has 4 rotors"]),
@@ -34,10 +34,13 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
 
 #[test]
 fn a_band_outside_of_all_rotors_is_refused_without_a_vehicle() {
-    refused_with(&["speed", "a.wav", "--gear", "8:69", "--band", "100:130"], &["order 69", "1.4 to 1.9 rev/s"]);
-    refused_with(&["speed", "a.wav", "--mass-kg", "413"], &["mass_kg = 413", "413 g are 0.413"]);
+    refused_with(
+        &["speed", "a.wav", "--gear", "8:69", "--band", "100:130"],
+        &["69 times the rotor speed", "1.4 to 1.9 rev/s"],
+    );
+    refused_with(&["speed", "a.wav", "--mass-kg", "413"], &["mass_kg = 413", "for 413 g write 0.413"]);
     let plan = ["fit", "--plan", "--mass-kg", "413"];
-    refused_with(&plan, &["mass_kg = 413", "413 g are 0.413"]);
+    refused_with(&plan, &["mass_kg = 413", "for 413 g write 0.413"]);
     refused_with(&[&plan[..], &["--diameter-m", "0.2"]].concat(), &["mass_kg = 413", "Mach"]);
     hovertone(&["fit", "--plan", "--mass-kg", "360", "--diameter-m", "1.6", "--rotors", "8", "--wanted-share", "0.2"])
         .ends_with(0);
@@ -84,10 +87,10 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     write_hover(&wav, steady_hover("ardrone", RotorSpeed::from_rev_s(58.7), 3.0));
     let weigh = ["weigh", text(&wav), "--constant", text(&results)];
     for (more, words) in [
-        (&["--rotors", "8"][..], ["with 4 rotors", "--rotors means 8", "leave --rotors out"]),
-        (&["--rotors", "2"], ["with 4 rotors", "--rotors means 2", "leave --rotors out"]),
-        (&["--order", "46"], ["tone of order 69", "mean 46", "leave --order"]),
-        (&["--blades", "3"], ["tone of order 69", "mean 3", "leave --order"]),
+        (&["--rotors", "8"][..], ["with 4 rotors", "--rotors says 8", "leave --rotors out"]),
+        (&["--rotors", "2"], ["with 4 rotors", "--rotors says 2", "leave --rotors out"]),
+        (&["--order", "46"], ["tone of order 69", "say 46", "leave --order"]),
+        (&["--blades", "3"], ["tone of order 69", "say 3", "leave --order"]),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }
@@ -102,7 +105,7 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     }
     let by_constant = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone"];
     refused_with(&[&by_constant[..], &["--rotors", "8"]].concat(), &["rotors = 8", "has 4 rotors"]);
-    refused_with(&[&by_constant[..], &["--order", "46"]].concat(), &["order = 46", "tones of order 69"]);
+    refused_with(&[&by_constant[..], &["--order", "46"]].concat(), &["order = 46", "is at 69 times"]);
 }
 
 /// What the vehicle has already changes no digit: speed, ± and budget.
@@ -148,7 +151,7 @@ fn a_vehicle_that_the_results_contradict_is_named_and_no_mass_that_nobody_gave()
     let results = out.join("results.json");
     let weigh = ["weigh", text(&sound), "--constant", text(&results)];
     let run = hovertone(&[&weigh[..], &["--vehicle", "ardrone"]].concat()).ends_with(2);
-    let says = "--vehicle ardrone contradicts the results: their vehicle, 0.03 kg, hovers at ";
+    let says = "--vehicle ardrone contradicts the results: the measured vehicle weighs 0.03 kg and hovers at ";
     assert!(run.stderr.contains(says) && run.stderr.contains("leave --vehicle out"), "{}", run.stderr);
     assert!(!run.stderr.contains("--mass-kg"), "{}", run.stderr);
     hovertone(&weigh).ends_with(0);
@@ -177,8 +180,9 @@ fn a_speed_of_a_vehicle_that_the_sound_contradicts_ends_with_3() {
     write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(61.3), 6.0));
     hovertone(&["speed", text(&sound), "--vehicle", "ardrone"]).ends_with(0);
     let run = hovertone(&["speed", text(&sound), "--vehicle", "crazyflie"]).ends_with(3);
-    let is_said =
-        ["contradicts the given facts", "no such rotor is heard"].iter().any(|word| run.stderr.contains(word));
+    let is_said = ["contradicts the given facts", "no rotor that fits the given facts is heard"]
+        .iter()
+        .any(|word| run.stderr.contains(word));
     assert!(is_said, "{}", run.stderr);
     // what was not given is not to be checked
     for fact in ["the diameter", "the mass", "the band", "the gear"] {
@@ -194,7 +198,7 @@ fn a_speed_that_the_vehicle_of_a_constant_cannot_have_is_said() {
     let sound = folder.path().join("hover.wav");
     write_hover(&sound, steady_hover("crazyflie", RotorSpeed::from_rev_s(250.0), 5.0));
     let run = hovertone(&["weigh", text(&sound), "--constant", text(&results), "--blades", "2"]).ends_with(3);
-    for words in ["the rotors behind the constant turn at 13 to 120 rev/s", "leave --blades out"] {
+    for words in ["measured with rotors that turn at 13 to 120 rev/s", "leave --blades out"] {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
     assert!(run.stdout.contains("do not use this mass"), "{}", run.stdout);

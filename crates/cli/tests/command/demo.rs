@@ -132,7 +132,11 @@ fn a_folder_that_is_no_demo_is_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("thesis.txt"), "precious").unwrap();
     let run = hovertone(&["demo", "-o", text(folder.path())]).ends_with(2);
-    assert!(run.stderr.contains("has files that no earlier run") && run.stderr.contains("-o DIR"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("has files that do not come from an earlier run") && run.stderr.contains("-o DIR"),
+        "{}",
+        run.stderr
+    );
     fs::write(folder.path().join("experiment.toml"), "[vehicle]\npreset = \"ardrone\"\n").unwrap();
     hovertone(&["demo", "-o", text(folder.path())]).ends_with(2);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);

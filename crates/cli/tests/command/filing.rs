@@ -89,7 +89,8 @@ fn a_recording_under_the_wrong_load_is_named() {
     let wrong = with(&[&heavy, "--mass", "462g", &other]);
     assert!(wrong.stderr.contains("means 12 % more thrust than in the other recordings"), "{}", wrong.stderr);
     assert!(
-        wrong.stderr.contains("check that it is under the right [[load]]") && !wrong.stderr.contains("times is"),
+        wrong.stderr.contains("check that each recording is under the right [[load]]")
+            && !wrong.stderr.contains("times the smallest"),
         "{}",
         wrong.stderr
     );

@@ -66,10 +66,12 @@ fn the_log_of_a_flight_names_rotors_checks_the_order_and_tells_the_motors() {
     let file = experiment(folder, &flown, &with_log(&flown.sound, "right.csv"));
     let out = folder.join("out");
     let run = hovertone(&["identify", &file, "-v", "-o", text(&out)]).ends_with(0);
-    for words in ["Order check: sound against telemetry", "passed", "motor 1", "time constant up"] {
+    for words in ["Speed check: sound against flight log", "passed", "motor 1", "time constant up"] {
         assert!(run.stdout.contains(words), "{words}: {}", run.stdout);
     }
-    assert!(!run.stdout.contains("order check failed") && !run.stderr.contains("order check"), "{}", run.stderr);
+    for words in ["do not fit the sound", "is of the same flight", "was not compared"] {
+        assert!(!run.stdout.contains(words) && !run.stderr.contains(words), "{words}: {}", run.stderr);
+    }
     let results: Value = serde_json::from_str(&fs::read_to_string(out.join("results.json")).unwrap()).unwrap();
     holds_to_its_schema(&results, &fs::read_to_string(out.join("results.schema.json")).unwrap());
     let log = &results["inputs"][0]["log"];
@@ -103,9 +105,9 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
     let file = experiment(folder, &flown, &with_log(&flown.sound, "half.csv"));
     let out = folder.join("out");
     let run = hovertone(&["identify", &file, "-o", text(&out)]).ends_with(3);
-    let failed = "the order check against half.csv failed: heard speeds are 2.00 times the logged ones";
+    let failed = "the speeds in half.csv do not fit the sound: the heard speeds are 2.00 times the logged speeds";
     assert!(run.stderr.contains(failed), "{}", run.stderr);
-    assert!(run.stdout.contains("; the order check failed against 1 log"), "{}", run.stdout);
+    assert!(run.stdout.contains("; the speeds in 1 log do not fit the sound"), "{}", run.stdout);
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains(failed));
 
     // without a log nothing of it is said
@@ -120,12 +122,12 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
         let run = hovertone(&["identify", &experiment(folder, &flown, recording)]).ends_with(code);
         words.iter().for_each(|words| assert!(run.stderr.contains(words), "{words}: {}", run.stderr));
     };
-    refused("{ file = \"flown/*.wav\", log = \"half.csv\" }", 2, &["a log is of one flight", "2 recordings"]);
+    refused("{ file = \"flown/*.wav\", log = \"half.csv\" }", 2, &["a log belongs to one flight", "2 recordings"]);
     refused(&with_log(&flown.sound, "nowhere.ulg"), 1, &["nowhere.ulg of load \"bare\""]);
     refused("{ file = \"a.wav\", lgo = \"half.csv\" }", 2, &["unknown key \"lgo\"", "did you mean \"log\""]);
     refused("{ file = \"a.wav\" }", 2, &["lacks \"log\""]);
     refused("3", 2, &["has 3 where text in quotes is needed"]);
     refused(&with_log(&flown.sound, "flown/again.wav"), 1, &["this is no log"]);
     fs::write(folder.join("rates.csv"), "time_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s\n0,1,1,1\n1,2,2,2\n").unwrap();
-    refused(&with_log(&flown.sound, "rates.csv"), 1, &["neither speeds nor commands"]);
+    refused(&with_log(&flown.sound, "rates.csv"), 1, &["neither rotor speeds nor motor commands"]);
 }

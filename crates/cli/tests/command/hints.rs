@@ -22,7 +22,7 @@ fn a_recording_and_a_log_that_are_exchanged_are_said_to_be() {
     let sound = folder.path().join("a.wav");
     write_noise(&sound, 0.5);
     let log = written(folder.path(), "log.csv", "time_s,command_roll,roll_deg\n0,0,0\n1,0,0\n");
-    failed_with(&["greybox", &log, text(&sound), "--vehicle", "ardrone"], &["are exchanged", "the recording first"]);
+    failed_with(&["greybox", &log, text(&sound), "--vehicle", "ardrone"], &["are swapped", "the recording first"]);
 }
 
 #[test]
@@ -33,12 +33,12 @@ fn a_log_of_another_clock_is_answered_with_the_flag_for_it() {
     let row = |row: u32| format!("{}.{},{},0\n", 1000 + row / 10, row % 10, 0.3 * f64::from(row / 5 % 2));
     let rows = (0..60).map(row).collect::<String>();
     let log = written(folder.path(), "log.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &rows));
-    let words = ["does not follow this log", "--log-offset-s"];
+    let words = ["do not follow the commands of this log", "--log-offset-s"];
     failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
     // a log without doublets is not to blame
     let steady = (0..60).map(|row| format!("0.{row:02},0,0\n")).collect::<String>();
     let log = written(folder.path(), "steady.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &steady));
-    let words = ["no doublets were flown", "fly doublets for a minute"];
+    let words = ["no doublets were flown", "for a minute, in roll"];
     failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
 }
 
@@ -103,7 +103,7 @@ fn a_bench_is_asked_for_a_band_and_for_no_mass_first() {
     let Some(bench) = recordings("crazyflie-propeller") else { return };
     let sound = bench.join("64000.wav");
     let said = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&sound)]).ends_with(3).stderr;
-    assert!(said.contains("on a bench, give the band of the blade pass with --band LOW:HIGH"), "{said}");
+    assert!(said.contains("on a bench, give the band around the tone of the blades with --band LOW:HIGH"), "{said}");
     let band = ["speed", "--blades", "2", "--rotors", "1", "--band", "780:840", text(&sound)];
     hovertone(&band).ends_with(0);
 }
@@ -141,5 +141,5 @@ fn what_cannot_be_heard_is_told_in_plain_words() {
     failed_with(&["speed", &table, "--blades", "2"], &["(it is text)"]);
     // no step, and no speed that is held: what to do
     let motor = hovertone(&["motor", text(&sound), "--from", "4", "--to", "5"]).ends_with(3).stdout;
-    assert!(!motor.contains("no speed is held") || motor.contains("choose a longer part"), "{motor}");
+    assert!(!motor.contains("no speed stays the same") || motor.contains("choose a longer part"), "{motor}");
 }

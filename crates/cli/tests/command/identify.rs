@@ -181,7 +181,10 @@ fn recordings_that_are_not_there_are_named() {
     says(hovertone(&["identify", text(&path)]), &["big/*.mov of load \"big\"", "--data-root", "notes at the top"]);
     let elsewhere = tempfile::tempdir().unwrap();
     let root = text(elsewhere.path());
-    says(hovertone(&["identify", text(&path), "--data-root", root]), &["big/*.mov", root, "put them into the folder"]);
+    says(
+        hovertone(&["identify", text(&path), "--data-root", root]),
+        &["big/*.mov", root, "put the recordings into the folder"],
+    );
     let nowhere = hovertone(&["identify", text(&path), "--data-root", "/no/such/folder"]).ends_with(1);
     assert!(nowhere.stderr.contains("no such folder"), "{}", nowhere.stderr);
     hovertone(&["identify", "/no/such/experiment.toml"]).ends_with(1);

@@ -82,7 +82,7 @@ fn a_number_that_a_model_has_already_is_said_to_be_there() {
     let results = write_results(folder.path());
     let (model, bare) = models_with_and_without_torque(folder.path());
     let torque = ["--torque-constant-n-m-s2", "1e-8"];
-    let (there, absent) = ("this model has the same number already", "this model has no such number");
+    let (there, absent) = ("this model has the same number already", "this model has no number for it");
     let first = export(&results, &[&["--into", text(&model)], &torque[..]].concat()).ends_with(0);
     assert!(!first.stderr.contains("changes nothing"), "{}", first.stderr);
     let again = export(&results, &[&["--into", text(&model)], &torque[..]].concat()).ends_with(0);
@@ -138,7 +138,11 @@ fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
     assert!(!said.stderr.contains("old number"), "a line that is changed is shown: {}", said.stderr);
     fs::write(&model, IRIS.replace("from PX4", "from PX4: 5.84e-6")).unwrap();
     let said = export(&results, &["--into", text(&model)]).ends_with(0);
-    assert!(said.stderr.contains("line 2 still has the old number: --into changes no comments"), "{}", said.stderr);
+    assert!(
+        said.stderr.contains("line 2 still has the old number: --into does not change comments"),
+        "{}",
+        said.stderr
+    );
     let twice = IRIS.replace("from PX4", "from PX4: 5.84e-6");
     fs::write(&model, twice.trim_end().to_owned() + "\n<!-- 5.84e-6, measured in May -->\n").unwrap();
     let (said, last) = (export(&results, &["--into", text(&model)]).ends_with(0), twice.trim_end().lines().count() + 1);
@@ -199,7 +203,7 @@ fn a_changed_model_goes_elsewhere_by_the_rules_of_outputs() {
     let results = text(&results);
     assert!(hovertone(&["export", results, "--into", results]).ends_with(1).stderr.contains("no model of a simulator"));
     let torque = ["--torque-constant-n-m-s2", "5"];
-    refused_with(&[&["export", results, "--to", "gazebo"], &torque[..]].concat(), &["propellers have less than 1 m"]);
+    refused_with(&[&["export", results, "--to", "gazebo"], &torque[..]].concat(), &["is less than 1 m"]);
     let both = hovertone(&["export", results, "--to", "gazebo", "--into", text(&model)]).ends_with(2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
     fs::write(&model, IRIS.replace("5.84e-06", "${motor_constant}")).unwrap();
@@ -227,7 +231,8 @@ fn a_constant_that_changes_by_more_than_a_factor_of_two_is_asked_about() {
         export(&results, &["--into", text(&model)]).ends_with(0).stderr
     };
     assert!(!said("5.84e-06").contains("times the old constant"));
-    let words = "times the old constant of the model (hint: check that results and model are of the same vehicle";
+    let words =
+        "times the old constant of the model (hint: check that the results and the model belong to the same vehicle";
     assert!(said("5.84e-08").contains(words));
 }
 
@@ -240,6 +245,6 @@ fn a_web_page_in_place_of_a_model_is_called_one() {
     let (into, compare) =
         (export(&results, &["--into", text(&page)]), hovertone(&["compare", text(&results), text(&page)]));
     for said in [into.ends_with(1).stderr, compare.ends_with(1).stderr] {
-        assert!(said.contains("this is a web page, and no model of a simulator (hint: name the file"), "{said}");
+        assert!(said.contains("this is a web page, and no model of a simulator (hint: give the file"), "{said}");
     }
 }

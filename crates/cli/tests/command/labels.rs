@@ -79,7 +79,7 @@ fn rotors_are_named_by_rates_and_by_speeds_and_by_neither() {
     // what does not reach over the hover says nothing, and is said
     let nothing = run(&["--log", text(&speeds), "--log-offset-s=-5:5"], 3);
     assert_eq!(names(&nothing), ["-"; 4]);
-    assert!(nothing["warnings"].to_string().contains("share too little time"), "{}", nothing["warnings"]);
+    assert!(nothing["warnings"].to_string().contains("covers too little time"), "{}", nothing["warnings"]);
     let without = run(&["--condition"], 0);
     assert!(
         without["labels"]["source"].is_null()
@@ -103,7 +103,7 @@ fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
     refused(rates, &["--rotors", "4", "--blades", "2", "--log-axes", "flu"], &["places of the rotors", "--layout"]);
     refused(rates, &["--blades", "2"], &["needs the number of rotors", "--rotors 4"]);
     refused(rates, &["b.wav", "--vehicle", "ardrone"], &["2 recordings", "the same flight"]);
-    refused("time,motor1_pwm\n", &["--vehicle", "ardrone"], &["time with its unit", "log.csv"]);
+    refused("time,motor1_pwm\n", &["--vehicle", "ardrone"], &["the time and its unit", "log.csv"]);
     refused("time_s,motor1_pwm\n0,x\n", &["--vehicle", "ardrone"], &["line 2", "\"x\""]);
     let missing = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", "missing.csv"]).ends_with(1);
     assert!(missing.stderr.contains("missing.csv"), "{}", missing.stderr);
@@ -165,7 +165,7 @@ fn without_a_settled_speed_no_rotor_is_named() {
     for more in [["--log", text(&log)], ["--spin-up", "1,2,3,4"]] {
         let run = hovertone(&[&["speed", text(&sound), "--rotors", "4"], &more[..]].concat()).ends_with(3);
         assert!(run.stdout.contains("possible speeds, each with its plausibility:"), "{}", run.stdout);
-        let said = "warning: no rotor is named: the shaft speed is ambiguous (hint: ";
+        let said = "warning: no rotor gets a name, because several shaft speeds are possible (hint: ";
         assert_eq!(run.stderr.matches(said).count(), 1, "{}", run.stderr);
     }
 }

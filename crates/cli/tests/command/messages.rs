@@ -69,7 +69,7 @@ fn faults_of_a_file_are_told_in_plain_words() {
             format!("{vehicle}mass_kg = \"0.4\"\n"),
             ["has \"0.4\" where a number is needed", "write a number"],
         ),
-        ("identify", format!("{vehicle}mass_kg = 0,4\n"), ["more than one key", "decimals have a point"]),
+        ("identify", format!("{vehicle}mass_kg = 0,4\n"), ["more than one key", "write decimals with a point"]),
         (
             "identify",
             format!("{vehicle}rotors = 4.5\n"),
@@ -198,12 +198,13 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ),
         (
             "identify --vehicle ardrone hover.mov",
-            "error: the mass that hovers in the recording is missing (hint: write each recording directly behind its mass, as in --mass 413g \
+            "error: the mass of the vehicle in the recording is missing (hint: write each recording directly after \
+             its mass, as in --mass 413g \
              hover.mov)",
         ),
         (
             "identify --mass 413g --vehicle ardrone hover.mov",
-            "error: a file that does not stand behind a mass counts as the experiment file (hint: write each recording directly behind its \
+            "error: a file without a mass before it counts as the experiment file (hint: write each recording directly after its \
              mass, as in --mass 413g hover.mov, and all other flags before --mass)",
         ),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
@@ -297,7 +298,11 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
         (vec!["identify", &json], 1, "this file is JSON, so it cannot be the experiment file"),
         (vec!["export", &results, "--into", &results], 1, "this JSON is no model of a simulator"),
         (vec!["compare", &results, &results], 1, "this JSON is no model of a simulator"),
-        (vec!["compare", &model, &results], 2, "this is a model of a simulator, and the results are needed first"),
+        (
+            vec!["compare", &model, &results],
+            2,
+            "this is a model of a simulator, but results.json of `hovertone identify` is needed here",
+        ),
         (vec!["export", &json, "--to", "gazebo", "--group", "x"], 2, "these results have no groups"),
         (vec!["export", &empty, "--to", "gazebo"], 1, "the file is empty"),
         (vec!["export", &broken, "--to", "gazebo"], 1, "the file ends too early, on line 1"),
@@ -321,7 +326,7 @@ fn an_experiment_and_a_scenario_are_told_from_each_other() {
     let flown = hovertone(&["simulate", text(&experiment), "-o", text(&folder.path().join("out"))]).ends_with(1);
     assert!(
         flown.stderr.contains(
-            "this is an experiment file, and the scenario file is needed (hint: give it to `hovertone identify`"
+            "this is an experiment file, but the scenario file is needed (hint: give it to `hovertone identify`"
         ),
         "{}",
         flown.stderr
@@ -329,7 +334,7 @@ fn an_experiment_and_a_scenario_are_told_from_each_other() {
     let heard = hovertone(&["identify", text(&scenario)]).ends_with(1);
     assert!(
         heard.stderr.contains(
-            "this is a scenario file, and the experiment file is needed (hint: give it to `hovertone simulate`"
+            "this is a scenario file, but the experiment file is needed (hint: give it to `hovertone simulate`"
         ),
         "{}",
         heard.stderr
@@ -386,7 +391,7 @@ fn a_name_that_is_no_text_is_shown() {
     use std::os::unix::ffi::OsStrExt;
     let odd = OsStr::from_bytes(b"bad\xff.wav");
     let run = hovertone_with(&["init", "--mass", "413g"], |command| command.arg(odd)).ends_with(2);
-    for words in ["bad\u{fffd}.wav", "this word is no text in UTF-8", "rename the file"] {
+    for words in ["bad\u{fffd}.wav", "this word is not valid UTF-8 text", "rename the file"] {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
 }

@@ -90,9 +90,9 @@ fn the_steps_are_drawn_with_their_curves() {
     assert!(drawing.contains("time after the start of the step (ms)"));
     assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
     refused_with(&["motor", &log, "--figure", text(&svg)], &["exists already"]);
-    refused_with(&["motor", &log, "--figure", "steps.pdf"], &["neither with .png nor with .svg", "steps.svg"]);
+    refused_with(&["motor", &log, "--figure", "steps.pdf"], &["must end with .png or .svg", "steps.svg"]);
     refused_with(&["motor", &log, &log, "--figure", "x.svg"], &["2 are given", "one file at a time"]);
-    refused_with(&["motor", &log, "--figure", &log, "--force"], &["neither with .png"]);
+    refused_with(&["motor", &log, "--figure", &log, "--force"], &["must end with .png"]);
     let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n0.02,600\n");
     let nothing = folder.path().join("nothing.svg");
     let run = hovertone(&["motor", &flat, "--figure", text(&nothing)]).ends_with(3);
@@ -162,7 +162,7 @@ fn what_is_no_log_is_refused_and_the_others_are_read() {
     let sound = written(folder.path(), "sound.wav", b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0\x01\0\x01\0");
     let run = hovertone(&["motor", &sound]).ends_with(1);
     assert!(
-        run.stderr.contains("no log, and no recording that can be heard") && run.stdout.is_empty(),
+        run.stderr.contains("neither a log nor a recording that hovertone can hear") && run.stdout.is_empty(),
         "{}",
         run.stderr
     );
@@ -238,14 +238,14 @@ fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
     near(&line["motors"][0]["static_map"]["gain_rev_s"], 0.195, 0.01);
     // a guess is said, and what was said is no guess
     let guess = hovertone(&["motor", &wav]).ends_with(0).stderr;
-    assert!(guess.contains("the speeds are for propellers with 2 blades, as the sound suggests"));
+    assert!(guess.contains("the speeds are for propellers with 2 blades, because the sound suggests"));
     let on_clock = ["motor", "--json", &wav, "--blades", "2", "--commands", &commands, "--offset", "0"];
     let dead_time_s = &hovertone(&on_clock).ends_with(0).json_lines()[0]["dead_time_s"]["value"];
     assert!((dead_time_s.as_f64().unwrap() - 0.035).abs() < 0.02, "{dead_time_s}");
     let shifted = ["motor", &wav, "--blades", "2", "--commands", &commands, "--offset", "2"];
     let shifted = hovertone(&shifted).ends_with(0);
     assert!(!shifted.stdout.contains("saturated"), "{}", shifted.stdout);
-    assert!(shifted.stderr.contains("they change at the same times with --offset 0.0"), "{}", shifted.stderr);
+    assert!(shifted.stderr.contains("or give --offset 0.0"), "{}", shifted.stderr);
 }
 
 #[test]
@@ -253,13 +253,13 @@ fn what_is_neither_log_nor_recording_ends_with_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     let other = written(folder.path(), "other.bin", b"\0\x01\xfe\xd5\x13\x41");
     let run = hovertone(&["motor", &other]).ends_with(1);
-    assert!(run.stderr.contains("no log, and no recording"), "{}", run.stderr);
+    assert!(run.stderr.contains("neither a log nor a recording"), "{}", run.stderr);
     let noise = folder.path().join("noise.wav");
     crate::testkit::write_noise(&noise, 6.0);
     let run = hovertone(&["motor", text(&noise), "--blades", "2"]).ends_with(3);
     assert!(run.stdout.contains("no rotor tone"), "{}", run.stdout);
     let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n");
     let run = hovertone(&["motor", text(&noise), "--commands", &flat]).ends_with(1);
-    assert!(run.stderr.contains("without commands of motors") && run.stderr.contains("motor1_pwm"), "{}", run.stderr);
+    assert!(run.stderr.contains("has no motor commands") && run.stderr.contains("motor1_pwm"), "{}", run.stderr);
     refused_with(&["motor", text(&noise), "--offset", "1"], &["--commands"]);
 }

@@ -32,7 +32,7 @@ fn a_mass_in_grams_is_a_slip_that_is_named() {
     hovertone(&[&weigh[..], &["0.413"]].concat()).ends_with(0);
     for command in [&["speed"][..], &["tones"], &["weigh", "--constant-n-s2", "2.83e-5"]] {
         let flown = ["a.wav", "--vehicle", "ardrone", "--mass-kg", "413"];
-        refused_with(&[command, &flown].concat(), &["mass_kg = 413", "weighs 0.413 kg", "413 g are 0.413"]);
+        refused_with(&[command, &flown].concat(), &["mass_kg = 413", "weighs 0.413 kg", "for 413 g write 0.413"]);
     }
     let plan = ["fit", "--plan", "--mass-kg", "0.413", "--added-mass-kg"];
     refused_with(&[&plan[..], &["31"]].concat(), &["added_mass_kg = 31", "31 g are 0.031"]);
@@ -194,7 +194,7 @@ fn one_weighing_is_of_one_load() {
     let folder = tempfile::tempdir().unwrap();
     let [light, heavy] = [0.413, 0.462].map(|mass_kg| hover(folder.path(), mass_kg));
     let weigh = ["weigh", text(&heavy), text(&light), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone"];
-    refused_with(&weigh, &["do not carry the same mass", "413g.wav has 41", "462g.wav has 46", "of their own"]);
+    refused_with(&weigh, &["do not have the same mass", "413g.wav has 41", "462g.wav has 46", "of each load"]);
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn rows_have_the_cells_of_the_header() {
     ] {
         let arguments = fit(row);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        refused_with(&arguments, &[words, "commas are decimal", "stand.csv"]);
+        refused_with(&arguments, &[words, "the decimal sign is a comma", "stand.csv"]);
     }
     let arguments = fit("3500,1.36,");
     hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0);
@@ -253,7 +253,10 @@ fn rows_that_were_computed_are_no_measurement() {
     };
     for digits in [17, 6, 4] {
         fs::write(&table, format!("rpm,thrust_n\n{}", rows(digits, ""))).unwrap();
-        refused_with(&["fit", text(&table)], &["exactly on F = C ω²", "these have none", "thrust_std_n", "stand.csv"]);
+        refused_with(
+            &["fit", text(&table)],
+            &["exactly on F = C ω²", "scatter of measured rows", "thrust_std_n", "stand.csv"],
+        );
     }
     // with a stated uncertainty they have one, and nothing is said not to fit
     fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{}", rows(17, ",0.001"))).unwrap();
@@ -295,7 +298,7 @@ fn files_of_another_kind_are_named_for_what_they_are() {
         (vec!["fit", wav], ["413g.wav", "not text"]),
         (vec!["export", wav, "--to", "gazebo"], ["413g.wav", "not text"]),
         (vec!["fit", place], ["this is a folder", "the table must be a file"]),
-        (vec!["identify", place], ["this is a folder", "the experiment file is needed"]),
+        (vec!["identify", place], ["this is a folder", "an experiment file is needed"]),
         (vec!["identify", "nowhere.toml"], ["nowhere.toml: there is no such file", "folder of the experiment file"]),
         (vec!["fit", "nowhere.csv"], ["nowhere.csv: there is no such file", "folder of the table"]),
     ] {

@@ -186,12 +186,12 @@ fn results_go_into_a_new_folder_or_one_of_results() {
     keeps(
         &file,
         &["identify", text(&experiment), "-o", text(&thesis)],
-        &["has files that no earlier run", "-o DIR", "--force"],
+        &["has files that do not come from an earlier run", "-o DIR", "--force"],
     );
     assert_eq!(fs::read_dir(&thesis).unwrap().count(), 1);
     // the folder of the experiment itself is no place for results
     let own = ["identify", text(&experiment), "-o", text(folder.path())];
-    refused_with(&own, &["this folder holds ", "which is an input", "-o results"]);
+    refused_with(&own, &["this folder holds ", "this folder holds the input", "-o results"]);
     let out = folder.path().join("out");
     hovertone(&["identify", text(&experiment), "-o", text(&out)]).ends_with(3);
     let listed = checked_list(&out);
@@ -229,7 +229,11 @@ fn an_experiment_file_that_was_changed_is_no_demos() {
     let experiment = folder.path().join("experiment.toml");
     fs::write(&experiment, "# Written by `hovertone demo` (hovertone 0.1.0, seed 1).\n[vehicle]\nmass_kg = 0.42\n")
         .unwrap();
-    keeps(&experiment, &["demo", "-o", text(folder.path())], &["has files that no earlier run", "--force"]);
+    keeps(
+        &experiment,
+        &["demo", "-o", text(folder.path())],
+        &["has files that do not come from an earlier run", "--force"],
+    );
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
@@ -260,12 +264,12 @@ fn results_of_another_experiment_are_replaced_only_by_force() {
     keeps_all(
         &out,
         &["identify", text(&other), "-o", text(&out)],
-        &["has files that no earlier run", "same experiment", "--force"],
+        &["has files that do not come from an earlier run", "same experiment", "--force"],
     );
     // the same recordings and masses, typed, are another experiment: they leave experiment.toml
     let mass = format!("413g={}", text(&folder.path().join("a.wav")));
     let typed = ["identify", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&out)];
-    keeps_all(&out, &typed, &["has files that no earlier run", "same experiment"]);
+    keeps_all(&out, &typed, &["has files that do not come from an earlier run", "same experiment"]);
     // a table that a person changed
     let table = out.join("tables.md");
     fs::write(&table, "precious").unwrap();
@@ -336,7 +340,7 @@ fn a_recording_counts_once() {
         fs::write(&experiment, format!("{vehicle}{loads}")).unwrap();
         refused_with(
             &["identify", text(&experiment)],
-            &["a.wav is given twice: counted twice, it would make the ± too small"],
+            &["a.wav is given twice: a recording that counts twice makes the uncertainty (±) too small"],
         );
     }
     // a pattern may hold a file that is named as well

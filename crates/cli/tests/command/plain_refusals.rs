@@ -31,7 +31,7 @@ fn a_dash_is_no_output() {
 fn a_stream_without_sound_is_refused_at_its_beginning() {
     let folder = tempfile::tempdir().unwrap();
     let run = piped(&["speed", "--blades", "2", "-"], Path::new("/dev/zero"), folder.path()).ends_with(1);
-    assert!(run.stderr.contains("first bytes match no format") && run.stderr.contains("hint:"), "{}", run.stderr);
+    assert!(run.stderr.contains("first bytes match no known format") && run.stderr.contains("hint:"), "{}", run.stderr);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let run = piped(&["speed", "--blades", "2", "-"], Path::new("/dev/null"), folder.path()).ends_with(1);
     assert!(run.stderr.contains("stdin: there is nothing in it (0 bytes)"), "{}", run.stderr);
@@ -69,7 +69,11 @@ fn a_place_below_a_file_is_named() {
     fs::write(&file, "").unwrap();
     let track = file.join("track.csv");
     let run = hovertone(&["speed", text(&wav), "--blades", "2", "--track", text(&track)]).ends_with(1);
-    assert!(run.stderr.contains("three.toml is a file, so nothing can be written below it"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("three.toml is a file, not a folder, so nothing can be written into it"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn a_wrong_number_of_blades_or_another_vehicle_is_said() {
         let other = hovertone(&["speed", text(&file), "--vehicle", "ardrone"]).ends_with(3);
         // in two of the seven, other lines pass for a gear mesh, at several speeds
         let contradicts = "the sound contradicts the given facts: a rotor with 2 blades";
-        let is_said = ["But one with 2 blades may turn at", contradicts];
+        let is_said = ["But a rotor with 2 blades may turn at", contradicts];
         assert!(is_said.iter().any(|words| other.stderr.contains(words)), "{}", other.stderr);
         let stderr = stderr_of(&["--vehicle", "crazyflie"]);
         assert!(!stderr.contains("blades"), "{stderr}");
@@ -61,7 +61,10 @@ fn a_mass_at_which_no_rotor_is_heard_is_blamed_and_not_the_recording() {
     let file = folder.join("DRONE_001.wav");
     let facts = ["--blades", "2", "--rotors", "4", "--mass-kg", "0.05", "--diameter-m", "0.3"];
     let stderr = hovertone(&[&["speed", text(&file)], &facts[..]].concat()).stderr;
-    assert!(stderr.contains("no such rotor is heard. But one with 2 blades may turn at 8"), "{stderr}");
+    assert!(
+        stderr.contains("no rotor that fits the given facts is heard. But a rotor with 2 blades may turn at 8"),
+        "{stderr}"
+    );
 }
 
 #[test]
@@ -86,7 +89,7 @@ fn a_speed_that_agrees_proves_no_wrong_number_of_blades() {
         wrong.stdout,
         wrong.stderr
     );
-    assert!(with("2").stdout.contains("order: pass, it is 2"));
+    assert!(with("2").stdout.contains("order (lines per turn): pass, it is 2"));
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn a_missing_right_names_what_it_is_missing_for() {
             if is_root { command.uid(NOBODY).gid(NOBODY) } else { command }
         })
     };
-    let (file, open) = ("you have no right to read", "you have no right to open this folder (hint: ask its owner");
+    let (file, open) = ("you have no right to read", "you have no right to open this folder (hint: ask the owner");
     for (arguments, words) in [
         (
             "speed secret.wav --blades 2",
@@ -58,7 +58,7 @@ fn a_missing_right_names_what_it_is_missing_for() {
             ["read_only/out.png: you have no right to write into the folder", "of your own"],
         ),
         ("demo -o closed", ["closed: you have no right to open this folder", "-o DIR"]),
-        ("demo -o mine.wav", ["mine.wav: this is a file, and a folder is needed", "-o DIR"]),
+        ("demo -o mine.wav", ["mine.wav: this is a file, but a folder is needed", "-o DIR"]),
     ] {
         let run = run(arguments).ends_with(1);
         words.iter().for_each(|word| assert!(run.stderr.contains(word), "{arguments}: no {word:?}:\n{}", run.stderr));

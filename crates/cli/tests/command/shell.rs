@@ -81,7 +81,10 @@ fn man_pages_of_the_program_and_of_every_command() {
     refused_with(&["man", "-o", text(&pages)], &["hovertone.1", "was changed", "--force"]);
     assert_eq!(page("hovertone.1"), "precious");
     fs::write(folder.path().join("notes.txt"), "precious").unwrap();
-    refused_with(&["man", "-o", text(folder.path())], &["has files that no earlier run", "same man pages", "--force"]);
+    refused_with(
+        &["man", "-o", text(folder.path())],
+        &["has files that do not come from an earlier run", "same man pages", "--force"],
+    );
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     refused_with(&["man", "spead"], &["did you mean \"speed\""]);
 }

@@ -104,7 +104,7 @@ fn faults_are_named_with_the_nearest_name() {
             "[vehicle]\nmass_kg = 9.0\n",
             ["mass_kg = 9: the vehicle is too heavy to hover", "give a smaller mass (in kilograms)"],
         ),
-        ("[vehicle]\nmass_kg = 413.0\n", ["mass_kg = 413: ", "413 g are 0.413"]),
+        ("[vehicle]\nmass_kg = 413.0\n", ["mass_kg = 413: ", "for 413 g write 0.413"]),
         ("[gusts]\nwind_at_6_m_m_s = 1.0\nlength_m = [1, 1, 1]\n", ["wind_at_6_m_m_s", "hint"]),
         ("truth_rate_hz = 333.0\n", ["truth_rate_hz", "500"]),
     ] {
@@ -125,7 +125,11 @@ fn a_flight_through_the_wall_ends_with_its_time() {
     let away = "[room]\n[sound]\nsample_rate_hz = 8000\n[[maneuver]]\nkind = \"fly_to\"\nposition_m = [9.0, 0.0, 1.0]\nduration_s = 5.0\n";
     let file = scenario(folder.path(), away);
     let run = hovertone(&["simulate", text(&file), "-o", text(&folder.path().join("out"))]).ends_with(1);
-    assert!(run.stderr.contains("cannot go on after") && run.stderr.contains("position_m"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("the simulated flight stopped after") && run.stderr.contains("position_m"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]
@@ -134,7 +138,7 @@ fn a_folder_of_something_else_is_left_alone() {
     let file = scenario(folder.path(), STILL_HOVER);
     let run = hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(2);
     // the folder of the scenario is no place for its results
-    assert!(run.stderr.contains("which is an input") && run.stderr.contains("-o results"), "{}", run.stderr);
+    assert!(run.stderr.contains("this folder holds the input") && run.stderr.contains("-o results"), "{}", run.stderr);
     fs::write(folder.path().join("truth.json"), "{}").unwrap();
     hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(2);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);

@@ -22,7 +22,7 @@ fn init_by_flags_writes_what_identify_can_read() {
     for name in ["nowhere.wav", "empty", "big/*.mov"] {
         let refused = init(&["--mass", &format!("444g={name}")]).ends_with(1);
         assert!(
-            refused.stderr.contains(name) && refused.stderr.contains("no recording is there"),
+            refused.stderr.contains(name) && refused.stderr.contains("no recording has this name"),
             "{}",
             refused.stderr
         );
@@ -39,7 +39,7 @@ fn init_by_flags_writes_what_identify_can_read() {
 #[test]
 fn a_slip_of_a_mass_or_a_comma_is_named() {
     let check = ["identify", "--vehicle", "ardrone", "--mass", "41.3g=a.wav", "--mass", "444g=b.wav", "--check"];
-    refused_with(&check, &["the vehicle \"ardrone\" weighs 413 g", "check --mass 41.3 g"]);
+    refused_with(&check, &["the vehicle \"ardrone\" weighs 413 g", "of --mass 41.3 g"]);
     let comma = ["identify", "--vehicle", "ardrone", "--mass", "0,413", "a.wav"];
     refused_with(&comma, &["--mass 0,413: the decimal sign is a point", "write --mass 0.413"]);
     refused_with(&["speed", "a.wav", "--mass-kg", "0,413kg"], &["the decimal sign is a point", "write 0.413kg"]);
@@ -74,7 +74,7 @@ fn slips_in_an_experiment_file_are_answered() {
         refused_with(&["identify", text(&place), "--check"], words);
     };
     check("recordings = [\"flights\\data.wav\"]", &["backslash", "in a path write /"]);
-    check("mass_kg = 0.462\nrecordings = []", &["what it adds to the vehicle", "added_mass_kg = 0.049"]);
+    check("mass_kg = 0.462\nrecordings = []", &["that it adds to the vehicle", "added_mass_kg = 0.049"]);
     let run = hovertone(&["export", text(&place), "--to", "gazebo"]).ends_with(1);
     assert!(run.stderr.contains("this is an experiment file"), "{}", run.stderr);
 }
@@ -99,10 +99,10 @@ fn lengths_and_masses_are_typed_with_their_units() {
 fn a_standard_uncertainty_is_smaller_than_its_number() {
     let weigh = ["weigh", "a.wav", "--vehicle", "ardrone", "--constant-n-s2", "2.83e-5"];
     for (more, words) in [
-        (&["--mass-kg", "0.413", "--mass-std-kg", "413"][..], ["mass_std_kg = 413", "0.5 g are 0.0005"]),
+        (&["--mass-kg", "0.413", "--mass-std-kg", "413"][..], ["mass_std_kg = 413", "for 0.5 g write 0.0005"]),
         (&["--mass-std-kg", "413"], ["mass_std_kg = 413", "give --mass-kg"]),
         (&["--constant-std-n-s2", "1"], ["constant_std_n_s2 = 1", "2.8e-7"]),
-        (&["--constant-std-n-s2", "2e-5"], ["constant_std_n_s2 = 0.00002", "must be smaller"]),
+        (&["--constant-std-n-s2", "2e-5"], ["constant_std_n_s2 = 0.00002", "must be less than the number itself"]),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }
@@ -129,7 +129,7 @@ fn a_vehicle_of_the_users_can_fly() {
     let file = folder.path().join("my.toml");
     for (numbers, words) in [
         ("propeller_diameter_m = 0.127\nmass_kg = 250.0", ["[my-drone]", "mass_kg = 250"]),
-        ("mass_kg = 250.0", ["more than most multirotors weigh", "250 g are 0.25"]),
+        ("mass_kg = 250.0", ["more than most multirotors weigh", "for 250 g write 0.25"]),
         ("propeller_diameter_m = 1.27\nshaft_speed_rev_s = [60.0, 400.0]", ["diameter_m = 1.27", "Mach 0.6"]),
         ("propeller_diameter_m = 0.02\nmass_kg = 0.413", ["diameter_m = 0.02", "Mach 0.84"]),
     ] {
@@ -160,7 +160,7 @@ fn forces_of_several_rotors_are_noticed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.csv");
     for (force, words) in
-        [("thrust_g_4rotors", "names 4 rotors"), ("mass_g", "as if one rotor carried them"), ("thrust_g", "")]
+        [("thrust_g_4rotors", "names 4 rotors"), ("mass_g", "as if one rotor carried it"), ("thrust_g", "")]
     {
         fs::write(&path, format!("{force},rpm\n413,3610\n444,3742\n470,3825\n")).unwrap();
         let said = |more: &[&str]| hovertone(&[&["fit", text(&path)], more].concat()).ends_with(0).stderr;
@@ -204,7 +204,7 @@ fn what_is_wrong_in_a_word_is_named_with_what_to_write() {
     let (sound, log) = (text(&sound), text(&log));
     let speed = |more: &[&'static str]| [&["speed", "--blades", "3", sound], more].concat();
     let cases: [(Vec<&str>, &[&str]); 7] = [
-        (vec!["identify", "--mass", "500lb", sound], &["the unit \"lb\" of a mass is not known", "413g"]),
+        (vec!["identify", "--mass", "500lb", sound], &["does not know the unit \"lb\"", "413g"]),
         (speed(&["--rotors", "0"]), &["from 1 to 12"]),
         (speed(&["--rotors", "40"]), &["from 1 to 12"]),
         (
@@ -213,7 +213,7 @@ fn what_is_wrong_in_a_word_is_named_with_what_to_write() {
         ),
         (
             speed(&["--log", "flight.csv"]),
-            &["to name rotors by --log, hovertone needs the number of rotors", "--rotors 4"],
+            &["to tell by --log which rotor is which, hovertone needs the number of rotors", "--rotors 4"],
         ),
         (speed(&["--from", "1:70"]), &["below 60; if you mean 130 seconds, write 130"]),
         (speed(&["--from", "2s"]), &["a time has no unit; write 2 "]),

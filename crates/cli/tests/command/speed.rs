@@ -109,7 +109,8 @@ fn noise_has_no_rotor_tone_and_ends_with_3() {
     for (said, heard) in [
         (
             &["--vehicle", "ardrone"][..],
-            "the tone of the gear (order 69) is not heard at 920 to 8280 Hz, as of 13 to 120 rev/s",
+            "the tone of the gear (69 times the rotor speed) is not heard at 920 to 8280 Hz, where 13 to 120 rev/s \
+            would sound",
         ),
         (
             &["--vehicle", "crazyflie"],
@@ -248,7 +249,7 @@ fn a_mesh_above_the_sample_rate_is_told_what_else_tells_the_speed() {
     write_noise(&noise, 4.0);
     let run = hovertone(&["speed", "--gear", "69", text(&noise)]).ends_with(3);
     for words in [
-        "the tone of order 69 (69 times per turn of the shaft) is not heard",
+        "the tone at 69 times the rotor speed is not heard",
         " rev/s; count the blades and give --blades N too",
         "--band LOW:HIGH",
     ] {

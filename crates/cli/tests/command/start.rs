@@ -123,10 +123,10 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
     flags("identify --mass 0.0005=a.wav --vehicle ardrone", &["--mass 0.0005=a.wav: ", "from 0.001"]);
     flags(
         "identify --mass 0.4=a.wav --mass 9=b.wav --vehicle ardrone",
-        &["--mass 9000 g and --mass 400 g: ", "check --mass 9000 g"],
+        &["--mass 9000 g and --mass 400 g: ", "of --mass 9000 g"],
     );
     flags("identify --mass 0.4=a.wav --vehicle ardrone --height-m 40", &["--height-m 40 alone", "--latitude-deg"]);
-    refuses(&["init"], &["no terminal", "--mass"]);
+    refuses(&["init"], &["not a terminal", "--mass"]);
     refuses(&["init", "--vehicle", "ardron", "--mass", "0.4=a.wav"], &["did you mean \"ardrone\""]);
     refuses(&["init", "--blades", "2", "--rotors", "4", "--diameter-m", "254", "--mass", "1=a.wav"], &["in metres"]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written");
@@ -146,7 +146,7 @@ fn a_check_says_what_it_would_do_and_what_is_missing() {
     for said in ["4 rotors, tone at 2 times the rotor speed", "a/1.WAV", "0:01", "48.0 kHz", "0.413", "ready"] {
         assert!(ready.stdout.contains(said), "{said}:\n{}", ready.stdout);
     }
-    for said in ["half and double the speed", "gravity", "only one load", "--latitude-deg"] {
+    for said in ["half and double the true speed", "gravity", "only one load", "--latitude-deg"] {
         assert!(ready.stderr.contains(said), "{said}:\n{}", ready.stderr);
     }
     // what the run would refuse, the check refuses too
@@ -183,7 +183,7 @@ fn init_asks_in_a_terminal() {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success() && said.contains("written: experiment.toml"), "{said}");
-    assert!(said.contains("half and double the speed") && said.contains("no_hull/*.MOV (1 recording)"), "{said}");
+    assert!(said.contains("half and double the true speed") && said.contains("no_hull/*.MOV (1 recording)"), "{said}");
     let written = fs::read_to_string(at.join("experiment.toml")).unwrap();
     for line in ["blades = 2", "rotors = 4", "propeller_diameter_m = 0.2032", "mass_kg = 0.413", "no_hull/*.MOV"] {
         assert!(written.contains(line), "{line}:\n{written}");

@@ -34,7 +34,7 @@ fn the_papers_rows_fit_with_462_g_and_not_with_472() {
     let rotor = number(&right, "/thrust_constant_per_rotor_n_s2/value");
     assert!((rotor * 4.0 - number(&right, "/thrust_constant_total_n_s2/value")).abs() < 1e-18);
     assert!(number(&right, "/fit/agreement/chi_square") < 0.1);
-    assert!(right.to_string().contains("the largest is 1.12 times the smallest, and 1.41 times is needed"), "{right}");
+    assert!(right.to_string().contains("is 1.12 times the smallest, but must be 1.41 times the smallest"), "{right}");
     let wrong = fit(472);
     assert!((number(&wrong, "/fit/agreement/p_value") - 0.0055).abs() < 2e-4);
     let misfits: Vec<&Value> =
@@ -102,7 +102,7 @@ fn bad_tables_are_refused_or_flagged() {
         ("rpm,mass_g\n3600,413\n", &["at least 3 usable rows", "has 1", "mass_std_g"]),
         ("rpm,mass_g\n3600,413\n3700,1744\n", &["at least 3 usable rows", "has 2", "mass_std_g"]),
         // three rows that are one row
-        ("rpm,mass_g\n3600,413\n3600,413\n3600,413\n", &["exactly on F = C ω²", "these have none"]),
+        ("rpm,mass_g\n3600,413\n3600,413\n3600,413\n", &["exactly on F = C ω²", "scatter of measured rows"]),
     ] {
         let refused = run(rows).ends_with(2);
         assert!(refused.stdout.is_empty());
@@ -160,7 +160,7 @@ fn a_plan_tells_before_flying() {
         hovertone(&arguments)
     };
     let words = plan("0.025", &["--latitude-deg", "-20.3", "--added-mass-kg", "0.1"]).ends_with(0).stdout;
-    for word in ["loads", "trials", "s of hover", "k = 2", "rotors not separated"] {
+    for word in ["loads", "recordings of each", "s of hover", "k = 2", "rotors not separated"] {
         assert!(words.contains(word), "{words}");
     }
     // the load that it names tests the law
@@ -169,7 +169,7 @@ fn a_plan_tells_before_flying() {
     assert!(heavier.contains("These loads also test"), "{words}\n{heavier}");
     let unreachable = plan("0.005", &["--added-mass-kg", "0.1"]).ends_with(2).stderr;
     for words in
-        ["rotors not separated", "from so near that `hovertone speed` separates the rotors (--rotors-separated)"]
+        ["rotors not separated", "so near the vehicle that `hovertone speed` separates the rotors (--rotors-separated)"]
     {
         assert!(unreachable.contains(words), "{unreachable}");
     }
@@ -393,7 +393,7 @@ fn what_cannot_be_exported_says_why() {
         assert!(refused.contains("must be"), "{flag} {value}: {refused}");
     }
     let giant = ["export", text(&path), "--to", "airsim", "--diameter-m", "8", "--air-density-kg-m3", "1.2"];
-    assert!(hovertone(&giant).ends_with(2).stderr.contains("no propeller has that"));
+    assert!(hovertone(&giant).ends_with(2).stderr.contains("no propeller has this value"));
     fs::write(folder.path().join("model.sdf"), "<a/>").unwrap();
     let model = folder.path().join("model.sdf");
     assert!(hovertone(&["compare", text(&path), text(&model)]).ends_with(1).stderr.contains("motorConstant"));

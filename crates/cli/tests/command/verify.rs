@@ -50,13 +50,13 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     }
     let figure = folder.path().join("check.svg");
     let drawn = hovertone(&[&asked[..], &["--figure", text(&figure)]].concat()).ends_with(0);
-    assert!(drawn.stdout.contains("passed: order and clock are right"));
+    assert!(drawn.stdout.contains("passed: the order of the tone (blades or gear) and the clock are right"));
     assert!(fs::read_to_string(&figure).unwrap().contains("difference rotor-1"));
     let refused = |figure: &str, words: &[&str]| refused_with(&[&asked[..], &["--figure", figure]].concat(), words);
-    refused("check.gif", &["neither with .png nor with .svg"]);
+    refused("check.gif", &["must end with .png or .svg"]);
     refused(text(&figure), &["exists already"]);
     let wrong = hovertone(&["verify", text(&sound), text(&half), "--vehicle", vehicle]).ends_with(3);
-    assert!(wrong.stdout.contains("failed: heard speeds are 2.00 times the logged ones"), "{}", wrong.stdout);
+    assert!(wrong.stdout.contains("failed: the heard speeds are 2.00 times the logged speeds"), "{}", wrong.stdout);
 }
 
 /// Equal means are no pass where the clock is wrong, or where the log is of another flight.
@@ -96,7 +96,11 @@ fn steady_speeds_do_not_show_whose_log_it_is() {
     let line = hovertone(&[&asked[..], &["--json"]].concat()).ends_with(3).json_lines().remove(0);
     assert!(line["status"] == "not_decided" && line["is_offset_told"] == false, "{line}");
     let run = hovertone(&[&asked[..], &["--log-offset-s=-0.2:0.2"]].concat()).ends_with(0);
-    assert!(run.stdout.contains("passed: order and clock are right"), "{}", run.stdout);
+    assert!(
+        run.stdout.contains("passed: the order of the tone (blades or gear) and the clock are right"),
+        "{}",
+        run.stdout
+    );
 }
 
 #[test]
@@ -107,7 +111,7 @@ fn nothing_to_compare_ends_with_a_sentence() {
     let log = folder.path().join("log.csv");
     fs::write(&log, "time_s,rotor1_rpm\n0,4000\n1,4100\n2,4200\n").unwrap();
     let run = hovertone(&["verify", text(&noise), text(&log), "--blades", "2"]).ends_with(3);
-    for words in ["no rotor tone: nothing sounds like a rotor", "nothing is compared"] {
+    for words in ["no rotor tone: nothing sounds like a rotor", "nothing was compared"] {
         assert_eq!(run.stderr.matches(words).count(), 1, "{words}:\n{}", run.stderr);
     }
     let run = hovertone(&["verify", "nowhere.wav", text(&log), "--blades", "2"]).ends_with(1);

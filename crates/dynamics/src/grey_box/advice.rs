@@ -21,7 +21,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         if !inputs.has_loop[axis as usize] {
             advice.push(Advice {
                 what: format!(
-                    "the flight does not show {}: the log lacks its command or its measured value",
+                    "the control of {0} is not known: the log lacks the command or the measured value of {0}",
                     axis.in_words()
                 ),
                 hint: format!("log the command and the {} of the vehicle", measurement(axis)),
@@ -33,7 +33,10 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
             gains.into_iter().filter(|gain| fit.estimate(*gain).is_none()).map(Parameter::in_words).collect();
         if !untold.is_empty() {
             advice.push(Advice {
-                what: format!("the flight does not show {}: it moves the rotors too little", untold.join(" and ")),
+                what: format!(
+                    "the flight does not show {}: it changes the speeds of the rotors too little",
+                    untold.join(" and ")
+                ),
                 hint: doublet(axis),
             });
         }
@@ -50,13 +53,14 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     }
     if fit.estimate(Parameter::TimeConstant).is_none() {
         advice.push(Advice {
-            what: "the flight does not show the time constant: the speeds change too slowly".to_owned(),
-            hint: "fly doublets of yaw and climb, whose commands change at once".to_owned(),
+            what: "the flight does not show the time constant of the motors: the speeds change too slowly".to_owned(),
+            hint: "fly yaw and climb doublets: move the stick one way, then at once the other way".to_owned(),
         });
     }
     if fit.estimate(Parameter::Load).is_none() {
         advice.push(Advice {
-            what: "the flight does not show the square term of the load (b in eq 2): the range of speeds is too small"
+            what: "the flight does not show the square term of the load (b in equation 2 of docs/greybox.md): the \
+            range of speeds is too small"
                 .to_owned(),
             hint: "fly climbs and descents with the largest command".to_owned(),
         });
@@ -69,8 +73,11 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
             format!("{:.2}", pair.correlation).replace('-', "−")
         ),
         hint: match pair.first.axis() {
-            Some(axis) => format!("fly {} doublets of two lengths, 0.2 and 0.6 s", axis.in_words()),
-            None => "fly doublets of different lengths".to_owned(),
+            Some(axis) => format!(
+                "fly {} doublets (stick one way, then the other) of two lengths, 0.2 and 0.6 s",
+                axis.in_words()
+            ),
+            None => "fly doublets (stick one way, then the other) of different lengths".to_owned(),
         },
     }));
     advice
@@ -86,5 +93,9 @@ fn measurement(axis: Axis) -> &'static str {
 }
 
 fn doublet(axis: Axis) -> String {
-    format!("fly more {} doublets with a large command, half of them 0.2 s and half 0.6 s long", axis.in_words())
+    format!(
+        "fly more {} doublets (stick one way, then the other) with a large command, half of them 0.2 s and half 0.6 s \
+        long",
+        axis.in_words()
+    )
 }

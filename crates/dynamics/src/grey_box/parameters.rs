@@ -93,8 +93,8 @@ impl Parameter {
     /// Its name in sentences.
     pub fn in_words(self) -> String {
         match self {
-            Self::Proportional(axis) => format!("k_p of {}", axis.in_words()),
-            Self::Derivative(axis) => format!("k_d of {}", axis.in_words()),
+            Self::Proportional(axis) => format!("the gain k_p of {}", axis.in_words()),
+            Self::Derivative(axis) => format!("the gain k_d of {}", axis.in_words()),
             Self::Limit(axis) => format!("the limit of {}", axis.in_words()),
             Self::TimeConstant => "the time constant".to_owned(),
             Self::Load => "the square term of the load".to_owned(),

@@ -30,7 +30,8 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
     let mass = match rotor.mass_kg {
         Some(mass_kg) => {
             format!(
-                "<inertial>\n  <mass>{}</mass> <!-- kg, of everything -->\n  <!-- inertia: keep yours -->\n</inertial>",
+                "<inertial>\n  <mass>{}</mass> <!-- kg, of the whole vehicle -->\n  <!-- inertia: keep yours \
+                -->\n</inertial>",
                 plain(mass_kg)
             )
         }

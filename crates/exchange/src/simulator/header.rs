@@ -50,7 +50,8 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
     }
     if let (Some(density), Some(diameter_m)) = (rotor.air_density_kg_m3, rotor.propeller_diameter_m) {
         lines.push(format!(
-            "C_T = T/(rho n^2 D^4) = {} with rho = {density:.4} kg/m^3, D = {diameter_m:.4} m; C_f goes with rho",
+            "C_T = T/(rho n^2 D^4) = {} with rho = {density:.4} kg/m^3, D = {diameter_m:.4} m; C_f is proportional to \
+            rho",
             number(units.coefficient(density, diameter_m))
         ));
     }
@@ -63,7 +64,8 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
         if let Some(command) = rotor.hover_command {
             let thrust_n = mass_kg * rotor.gravity_m_s2 / f64::from(rotor.rotor_count);
             lines.push(format!(
-                "hover at command {command}: {} N/command^2 for one rotor, if thrust goes with the square of the command",
+                "hover at command {command}: {} N/command^2 for one rotor, if the thrust is proportional to the \
+                square of the command",
                 number(thrust_n / command.powi(2))
             ));
         }
@@ -73,7 +75,9 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
 
 /// The line about a torque that was not measured.
 pub(super) fn missing_torque(name: &str) -> String {
-    format!("{name}: MISSING. Sound tells thrust, not torque: measure it, or keep the one you have")
+    format!(
+        "{name}: MISSING. Sound shows the thrust, not the torque: measure the torque, or keep the value of your model"
+    )
 }
 
 /// The lines with a comment sign in front.

@@ -12,7 +12,8 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
     let mut text =
         xml_comment(rotor) + "<!-- use: <xacro:include filename=\"…\" /> behind the properties of your vehicle -->\n";
     if let Some(mass_kg) = rotor.mass_kg {
-        text += "<!-- mass is that of everything; RotorS adds mass_rotor for each rotor: take those off -->\n";
+        text += "<!-- mass is the mass of the whole vehicle; RotorS adds mass_rotor for each rotor: subtract these \
+        from mass -->\n";
         text += &property("mass", plain(mass_kg), "kg");
     }
     text += &rotor

@@ -39,11 +39,11 @@ pub(super) fn check(rows: &[GroupedRow], columns: MeasuredColumns<'_>) -> Result
     let is_fast = |rad_s: f64| RotorSpeed::from_rad_s(rad_s).rev_s() > SPEED_REV_S_MAX;
     let is_slow = |rad_s: f64| rad_s > 0.0 && RotorSpeed::from_rad_s(rad_s).rev_s() < SPEED_REV_S_MIN;
     let fast = Limit {
-        must_be: "too fast for a rotor, at most 1500 rev/s (90000 rpm)",
+        must_be: "too fast for a rotor, which turns at 1500 rev/s (90000 rpm) or less",
         header: (!is_in(RPM_RAD_S)).then_some("speed_rpm"),
     };
     let slow = Limit {
-        must_be: "too slow for a rotor that flies, at least 1 rev/s (60 rpm)",
+        must_be: "too slow for a rotor that flies, which turns at 1 rev/s (60 rpm) or more",
         header: (!is_in(TAU)).then_some("speed_rev_s"),
     };
     refuse_beyond(&speeds, columns.speed, &fast, &is_fast)?;
@@ -55,8 +55,8 @@ pub(super) fn check(rows: &[GroupedRow], columns: MeasuredColumns<'_>) -> Result
         StandForce::Thrust { .. } => None,
     };
     let masses: Vec<Cell> = rows().filter_map(mass).collect();
-    let heavy = Limit { must_be: "heavier than most multirotors, at most 50 kg", header: Some("mass_g") };
-    let light = Limit { must_be: "lighter than any multirotor, at least 1 g", header: Some("mass_kg") };
+    let heavy = Limit { must_be: "heavier than most multirotors, which weigh 50 kg or less", header: Some("mass_g") };
+    let light = Limit { must_be: "lighter than any multirotor, which weighs 1 g or more", header: Some("mass_kg") };
     refuse_beyond(&masses, columns.force, &heavy, &|mass_kg| mass_kg > MASS_ALONE_KG_MAX)?;
     if masses.iter().all(|cell| cell.si < MASS_KG_MIN) {
         refuse_beyond(&masses, columns.force, &light, &|mass_kg| mass_kg < MASS_KG_MIN)?;

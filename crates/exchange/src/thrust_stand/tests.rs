@@ -75,7 +75,7 @@ fn what_means_nothing_is_refused_with_its_line() {
         ("a,thrust_n\n1,2\n", ["speed", "a, thrust_n"]),
         ("rpm,thrust_n\n3000,0.7\n-3610,1\n", ["line 3", "-3610: a speed must be 0 or more"]),
         ("rpm,thrust_n\n-3000,0.7\n-3610,1\n", ["line 2", "0 or more"]),
-        ("speed_rev_s,thrust_n\n60,0.7\n3610,1\n", ["line 3", "3610: too fast for a rotor, at most 1500 rev/s"]),
+        ("speed_rev_s,thrust_n\n60,0.7\n3610,1\n", ["line 3", "3610: too fast for a rotor, which turns at 1500 rev/s"]),
         (
             "speed_rev_s,thrust_n\n50,0.5\n3000,0.7\n3610,1\n",
             ["2 of 3 numbers are too fast", "the largest one is 3610"],

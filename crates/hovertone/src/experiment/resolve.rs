@@ -27,8 +27,8 @@ impl Known<'_> {
         let of_preset = self.preset.map(|preset| preset.rotor_count.value);
         match (of_preset, self.model.and_then(|model| model.rotor_count)) {
             (Some(of_preset), Some(of_model)) if of_preset != of_model => Err(ExperimentError::Contradiction {
-                what: format!("the preset has {of_preset} rotors, the model {of_model}"),
-                hint: "write vehicle.rotors",
+                what: format!("the preset has {of_preset} rotors, but the model has {of_model} rotors"),
+                hint: "write the right number as rotors = N under [vehicle]",
             }),
             (of_preset, of_model) => Ok(of_preset.or(of_model)),
         }
@@ -80,8 +80,8 @@ impl ExperimentFile {
             Some(rotor_count) => Some(rotor_count),
             None => known.rotor_count()?,
         };
-        let rotor_count =
-            rotor_count.ok_or_else(|| missing("the number of rotors", "write vehicle.rotors, or a vehicle.preset"))?;
+        let rotor_count = rotor_count
+            .ok_or_else(|| missing("the number of rotors", "write rotors = N or preset = \"NAME\" under [vehicle]"))?;
         positive("vehicle.rotors", f64::from(rotor_count))?;
         self.vehicle.gear.map_or(Ok(()), Gear::check)?;
         preset.map_or(Ok(()), |preset| self.check_said(preset))?;
@@ -100,7 +100,7 @@ impl ExperimentFile {
         if let Some(air) = air {
             air.check()?;
             if air.pressure_hpa.is_none() && air.height_m.is_none() {
-                return Err(missing("air.pressure_hpa", "write the pressure at the place, or air.height_m"));
+                return Err(missing("air.pressure_hpa", "write pressure_hpa or height_m under [air]"));
             }
         }
         self.uncertainty.check()?;
@@ -178,7 +178,10 @@ impl ExperimentFile {
             (OrderSetting::Auto, Some(gear), _) => gear.mesh_order()?,
             (OrderSetting::Auto, None, Some(blades)) => Order::from_blades(blades)?,
             (OrderSetting::Auto, None, None) => {
-                return Err(missing("the order of the tone", "write tone.order, vehicle.blades or vehicle.gear"));
+                return Err(missing(
+                    "the order of the tone",
+                    "write blades = N or gear under [vehicle], or order under [tone]",
+                ));
             }
         };
         let known = preset.and_then(|preset| Some(preset.shaft_speed.as_ref()?.value));
@@ -220,7 +223,7 @@ impl ExperimentFile {
             return Err(ExperimentError::OutOfRange {
                 name: named("rotors_running"),
                 value: f64::from(rotors_running),
-                must_be: "must be at least 1 and no more than the vehicle has rotors",
+                must_be: "must be from 1 to the number of rotors of the vehicle",
             });
         }
         if rotors_running != rotor_count && load.thrust_n.is_none() {
@@ -258,8 +261,9 @@ impl ExperimentFile {
         named: &dyn Fn(&str) -> String,
     ) -> Result<Force, ExperimentError> {
         let mass_kg = self.vehicle.mass_kg.or_else(|| known.mass_kg());
-        let mass_kg =
-            mass_kg.ok_or_else(|| missing("the vehicle's mass", "weigh it ready to fly and write vehicle.mass_kg"))?;
+        let mass_kg = mass_kg.ok_or_else(|| {
+            missing("the vehicle's mass", "weigh the vehicle ready to fly, and write mass_kg under [vehicle]")
+        })?;
         let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
             (Some(gravity), None, None) => Gravity::given(gravity),
             (None, Some(latitude_deg), height_m) => {
@@ -274,7 +278,10 @@ impl ExperimentFile {
                 });
             }
             (None, None, Some(_)) => {
-                return Err(missing("vehicle.latitude_deg", "height_m alone does not give the gravity"));
+                return Err(missing(
+                    "vehicle.latitude_deg",
+                    "height_m alone does not give the gravity: write latitude_deg too, or gravity_m_s2",
+                ));
             }
         };
         check_gravity("vehicle.gravity_m_s2", gravity.m_s2)?;
@@ -293,9 +300,10 @@ impl ExperimentFile {
             let meant = if is_in_grams { format!(" (did you mean {}?)", mass_kg / 1e3) } else { String::new() };
             return Err(ExperimentError::Contradiction {
                 what: format!(
-                    "vehicle.mass_kg = {mass_kg} is {mass_kg} kg{meant}, and the preset or the model weighs {known_kg} kg"
+                    "vehicle.mass_kg = {mass_kg} is {mass_kg} kg{meant}, but the preset or the model weighs \
+                    {known_kg} kg"
                 ),
-                hint: "masses are in kg; check this one, and the name of the vehicle",
+                hint: "masses are in kg; check this mass and the name of the vehicle",
             });
         }
         not_negative(&named("added_mass_kg"), added_mass_kg)?;

@@ -193,7 +193,10 @@ fn a_model_fills_what_the_file_leaves_out_and_wins_over_the_preset() {
     // a fragment with the plugin of one rotor does not make a quadrotor a single-rotor vehicle
     let fragment = VehicleModel { rotor_count: Some(1), ..model() };
     let message = resolve(&text, fragment.clone()).expect_err("rotors").to_string();
-    assert!(message.contains("4 rotors, the model 1") && message.contains("vehicle.rotors"), "{message}");
+    assert!(
+        message.contains("4 rotors, but the model has 1") && message.contains("rotors = N under [vehicle]"),
+        "{message}"
+    );
     assert_eq!(resolve(&own, fragment).expect("a good file").rotor_count, 6);
     for (broken, said) in [
         (VehicleModel { mass_kg: Some(f64::NAN), ..model() }, "mass_kg"),

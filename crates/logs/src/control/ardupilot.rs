@@ -55,7 +55,7 @@ pub(super) fn control(tables: &[SignalTable], flight: &LoggedFlight) -> LoggedCo
         motor_of_rotor: MOTOR_OF_ROTOR,
         missing: Vec::new(),
     };
-    let hint = "fly in AltHold mode, in which sticks command angles, yaw rate and climb";
+    let hint = "fly in AltHold mode: then the sticks command angles, yaw rate and climb";
     let modes = kind("MODE").and_then(|table| table.values_of("ModeNum").or_else(|| table.values_of("Mode")));
     // a message is written where the mode changes: the last one is that of the flight
     if let Some(mode) =

@@ -98,9 +98,9 @@ fn measured_hint(control_loop: ControlLoop, [attitude, rate, climb]: [&'static s
 
 fn csv_command(control_loop: ControlLoop) -> &'static str {
     match control_loop {
-        ControlLoop::Roll => "log a column command_roll, ±1",
-        ControlLoop::Pitch => "log a column command_pitch, ±1",
-        ControlLoop::Yaw => "log a column command_yaw_rate, ±1",
-        ControlLoop::Climb => "log a column command_climb, ±1",
+        ControlLoop::Roll => "log a column command_roll with values from −1 to 1",
+        ControlLoop::Pitch => "log a column command_pitch with values from −1 to 1",
+        ControlLoop::Yaw => "log a column command_yaw_rate with values from −1 to 1",
+        ControlLoop::Climb => "log a column command_climb with values from −1 to 1",
     }
 }

@@ -51,7 +51,7 @@ pub(super) fn control(tables: &[SignalTable], flight: &LoggedFlight) -> LoggedCo
         motor_of_rotor: MOTOR_OF_ROTOR,
         missing: Vec::new(),
     };
-    let hint = "fly in Altitude mode, in which sticks command angles, yaw rate and climb";
+    let hint = "fly in Altitude mode: then the sticks command angles, yaw rate and climb";
     if let Some(mode) = topic("vehicle_status").and_then(|table| commonest(table.values_of("nav_state")?)) {
         let is_tilt = mode == ALTITUDE_MODE || mode == STABILIZED_MODE;
         let wrong = [

@@ -62,11 +62,7 @@ impl ControlSeries<'_> {
     /// Drops a command that means something else in the mode of the flight.
     pub(super) fn leave_out(&mut self, control_loop: ControlLoop, hint: &'static str) {
         if self.command[control_loop as usize].take().is_some() {
-            self.missing.push(MissingControl {
-                control_loop,
-                what: "a command of it in the mode of this flight",
-                hint,
-            });
+            self.missing.push(MissingControl { control_loop, what: "its command in this flight mode", hint });
         }
     }
 

@@ -157,7 +157,7 @@ fn missing(control: &LoggedControl) -> Vec<(ControlLoop, &str, &str)> {
 fn what_a_log_lacks_is_said_for_each_loop_with_what_to_log() {
     let stabilized = control_of(&ulog(15, true));
     let [(ControlLoop::Climb, what, hint)] = missing(&stabilized)[..] else { panic!("{:?}", stabilized.missing) };
-    assert!(what.contains("mode of this flight") && hint.contains("Altitude mode") && stabilized.command[0].is_some());
+    assert!(what.contains("in this flight mode") && hint.contains("Altitude mode") && stabilized.command[0].is_some());
     let by_itself = control_of(&dataflash(3));
     assert_eq!(by_itself.missing.len(), 3, "{:?}", by_itself.missing);
     assert!(by_itself.command[2].is_some() && missing(&by_itself)[0].2.contains("AltHold"));
@@ -178,7 +178,7 @@ fn what_a_log_lacks_is_said_for_each_loop_with_what_to_log() {
 
     let csv = control_of(b"time_s,command_roll,roll_deg\n0,0.1,1\n1,0.1,1\n");
     let told: Vec<(ControlLoop, &str)> = missing(&csv).iter().map(|(of, _, hint)| (*of, *hint)).collect();
-    assert_eq!(told[0], (ControlLoop::Pitch, "log a column command_pitch, ±1"));
+    assert_eq!(told[0], (ControlLoop::Pitch, "log a column command_pitch with values from −1 to 1"));
     assert_eq!(told.len(), 3);
 }
 

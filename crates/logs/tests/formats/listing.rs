@@ -51,7 +51,7 @@ fn signals_of_one_table_come_row_by_row() {
     let bytes = dataflash::flight(1);
     let wanted = ["ESC[0].RPM".to_owned(), "ESC[1].RPM".to_owned()];
     let error = signal_rows(&bytes[..], &ColumnNames::default(), &wanted, |_| Ok(())).unwrap_err();
-    assert!(matches!(error, LogError::SeveralTables { .. }) && error.hint().contains("a file of their own"));
+    assert!(matches!(error, LogError::SeveralTables { .. }) && error.hint().contains("the signals of one table"));
     let full = |_: &hovertone_logs::SignalRow| Err(std::io::Error::other("the disk is full"));
     let error = signal_rows(&bytes[..], &ColumnNames::default(), &wanted[..1], full).unwrap_err();
     assert!(error.to_string().contains("the disk is full"), "{error}");

@@ -202,7 +202,7 @@ fn layout_from_data<R: Read + Seek>(
         wrong_size: is_placeholder.then_some((declared, rest)),
     };
     if layout.data_bytes < layout.block_bytes {
-        let why = format!("{} bytes follow the header, less than one block of samples", layout.data_bytes);
+        let why = format!("only {} bytes follow the header, less than one audio sample", layout.data_bytes);
         return Err(MediaError::NoSamples { container, why });
     }
     Ok(layout)
@@ -275,7 +275,7 @@ impl Format {
             1 | 3 => bad(
                 "the number of bytes of an audio sample",
                 sample_bytes,
-                "1 to 4, or 4 or 8 where they are floating point",
+                "1 to 4 for whole numbers, or 4 or 8 for floating point",
             ),
             2 | 0x11 if channel_count <= 2 && bits == 4 => {
                 let (id, name, head, head_frames) = if tag == 2 {

@@ -47,7 +47,7 @@ pub enum MotorSignal {
 #[non_exhaustive]
 pub enum LogError {
     /// Series of different lengths.
-    #[error("a signal has {length} values, and the log has {times} times")]
+    #[error("a signal has {length} values, but the log has {times} times")]
     UnequalLengths {
         /// Length of the series.
         length: usize,
@@ -63,7 +63,7 @@ pub enum LogError {
         series: usize,
     },
     /// Times that do not increase.
-    #[error("row {row} has the time {time_s} s, which is not after that of the row before")]
+    #[error("row {row} has the time {time_s} s, which is not later than the time of the row before")]
     NotInOrder {
         /// Row, counted from 0.
         row: usize,

@@ -95,7 +95,7 @@ impl<'a> HarmonicWeights<'a> {
                     difference_share = share.abs().max(difference_share);
                     let how = if share < 0.0 { "lower" } else { "higher" };
                     let others = if ridge.band.harmonic == 1 { "its multiples" } else { "the other harmonics" };
-                    format!("it is {:.1} % {how} than {others} say, so it may be another sound", 100.0 * share.abs())
+                    format!("it is {:.1} % {how} than {others} show, so it may be another sound", 100.0 * share.abs())
                 }
                 (Some(_), Some(_)) => {
                     used.push(ridge);

@@ -142,9 +142,9 @@ pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, meaning: Meaning
 /// How well the levels of the harmonics fit a speed.
 fn fit_in_words(belief: f64) -> &'static str {
     match belief {
-        well if well >= 0.5 => "the levels of the harmonics fit well",
-        fair if fair >= 0.1 => "the levels of the harmonics fit",
-        _ => "the levels of the harmonics fit badly",
+        well if well >= 0.5 => "the levels of the harmonics fit this speed well",
+        fair if fair >= 0.1 => "the levels of the harmonics fit this speed",
+        _ => "the levels of the harmonics fit this speed badly",
     }
 }
 

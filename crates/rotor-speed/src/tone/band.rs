@@ -49,7 +49,7 @@ pub(crate) fn bands_around(
             return Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz });
         } else {
             let reason = format!(
-                "it may lie up to {:.0} Hz, and the recording has no sound above {hz_max:.0} Hz",
+                "its frequency may be as high as {:.0} Hz, and the recording has no sound above {hz_max:.0} Hz",
                 times * high_hz
             );
             warnings.push(Warning::HarmonicLeftOut { harmonic, reason });

@@ -32,7 +32,7 @@ pub(crate) fn bands_worth_following(
     let Some(first) = cut.first() else { return Ok(kept) };
     warnings.push(Warning::BandCutByCodec { above_hz });
     warnings.extend(cut.iter().map(|band| {
-        let reason = format!("it lies near {:.0} Hz, and the recording has no sound there", middle_hz(band));
+        let reason = format!("its frequency is near {:.0} Hz, and the recording has no sound there", middle_hz(band));
         Warning::HarmonicLeftOut { harmonic: band.harmonic, reason }
     }));
     if kept.is_empty() { Err(NoTone::BandCutByCodec { tone_hz: middle_hz(first), above_hz }) } else { Ok(kept) }

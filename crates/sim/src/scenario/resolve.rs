@@ -52,14 +52,14 @@ impl ScenarioFile {
         }
         let steps_per_row = 1.0 / (self.truth_rate_hz * flight.step_s);
         if !(steps_per_row.round() >= 1.0 && (steps_per_row - steps_per_row.round()).abs() < 1e-6 * steps_per_row) {
-            let must_be = "a divisor of the steps per second: with steps of 1 ms 1000, 500, 250, 200, 100, 50 …";
+            let must_be = "a divisor of the steps per second, with steps of 1 ms one of 1000, 500, 250, 200, 100, 50 …";
             return Err(ScenarioError::out_of_range("truth_rate_hz", self.truth_rate_hz, must_be));
         }
         let sound = self.sound_of(&flight)?;
         let format = self.sound.sample_format;
         let bytes_per_s = f64::from(sound.sample_rate_hz * format.byte_count()) * sound.microphones.len() as f64;
         if duration_s * bytes_per_s > SOUND_BYTES_MAX {
-            let must_be = "shorter: a WAV file holds 4 GiB, all channels together";
+            let must_be = "shorter: a WAV file holds at most 4 GiB for all channels together";
             return Err(ScenarioError::out_of_range("duration_s", duration_s, must_be));
         }
         Ok(Scenario {
@@ -266,7 +266,7 @@ fn gusts_of(section: &GustSection, height_m: f64) -> Result<Gusts, ScenarioError
         (Some(gusts), (None, None, None)) => Ok(gusts),
         (None, (Some(std_m_s), Some(length_m), Some(airspeed_m_s))) => Ok(Gusts { std_m_s, length_m, airspeed_m_s }),
         (Some(_), _) => Err(ScenarioError::Contradiction {
-            what: "[gusts] has wind_at_6_m_m_s and numbers of its own".to_owned(),
+            what: "[gusts] has wind_at_6_m_m_s, but also std_m_s, length_m or airspeed_m_s".to_owned(),
             hint: "keep wind_at_6_m_m_s alone, or std_m_s, length_m and airspeed_m_s",
         }),
         (None, _) => Err(ScenarioError::Missing {

@@ -146,7 +146,7 @@ impl Layout {
             Maneuver::TakeOff { height_m, duration_s } => {
                 if self.motors_on {
                     return Err(ScenarioError::Contradiction {
-                        what: "take_off while the vehicle flies already".to_owned(),
+                        what: "a take_off is planned while the vehicle already flies".to_owned(),
                         hint: "write starts_on_ground = true under [flight], or take the maneuver out",
                     });
                 }

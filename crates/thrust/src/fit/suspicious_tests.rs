@@ -205,7 +205,7 @@ fn constants_that_differ_within_the_stated_uncertainty_are_no_contradiction() {
     assert_eq!(differing(0.1, 0.14), None, "twice the root of two tenths squared is 28 %");
     let told = differing(0.1, 0.4).unwrap().to_string();
     assert!(
-        told.ends_with("; the stated uncertainties of the forces (k = 2) explain only 28 % of difference"),
+        told.ends_with("; the stated uncertainties of the forces (k = 2) explain a difference of only 28 %"),
         "{told}"
     );
     assert!(!differing(0.0, 0.14).unwrap().to_string().contains("explain"));

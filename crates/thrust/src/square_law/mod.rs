@@ -82,7 +82,7 @@ pub enum NoScatter {
         count: usize,
     },
     /// All points lie on the law but for rounding.
-    #[error("{} lie exactly on F = C ω², as computed rows do; the ± comes from the scatter of measured rows, and these have none", rows_but(*left_out))]
+    #[error("{} lie exactly on F = C ω², so they seem to be computed; the ± needs the scatter of measured rows", rows_but(*left_out))]
     Computed {
         /// Number of points that are left out, because they do not fit.
         left_out: usize,

@@ -21,7 +21,7 @@ fn lists_patterns_and_names_are_inputs_and_a_missing_one_is_a_row() {
     batch(&pattern, &folder.path().join("matched"), &[]).ends_with(0);
     assert_eq!(table(&folder.path().join("matched/recordings.parquet")).num_rows(), 4);
     for (input, words) in
-        [("archive/*.flac", "no file matches"), ("nowhere", "no such file"), ("empty", "no recording is in")]
+        [("archive/*.flac", "no file matches"), ("nowhere", "no such file"), ("empty", "has no recordings")]
     {
         fs::create_dir_all(folder.path().join("empty")).unwrap();
         let run = hovertone_with(&["batch", input, "-o", "none"], |command| command.current_dir(folder.path()));
