@@ -143,8 +143,8 @@ impl Excess {
 }
 
 impl ExcessFrame {
-    /// The highest level within a bin of a frequency, where bins are `bin_hz` apart; [`UNKNOWN`] where lines are left out of the sound. `None` outside
-    /// the band.
+    /// The highest level within a bin of a frequency, where bins are `bin_hz` apart; [`UNKNOWN`] where lines are left out of the sound. `None`
+    /// outside the band.
     pub(super) fn highest_near(&self, hz: f64, bin_hz: f64) -> Option<Level> {
         let bin = (hz / bin_hz + 0.5) as usize;
         self.levels.get(bin.saturating_sub(1)..bin + 2)?.iter().copied().max()
