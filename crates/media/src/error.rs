@@ -85,14 +85,14 @@ pub enum MediaError {
     /// Only ffmpeg decodes this file, and it is not available.
     #[error(
         "the {container} holds {codec}, which needs the program ffmpeg: hovertone has no decoder of its own for it, and \
-         {why}; install ffmpeg, or convert the sound to WAV or FLAC"
+         {why}, or convert the sound to WAV or FLAC"
     )]
     NeedsFfmpeg {
         /// The container.
         container: Container,
         /// Name of the codec for people.
         codec: String,
-        /// Reason why ffmpeg was not used.
+        /// Reason why ffmpeg was not used, and what to do.
         why: String,
     },
 

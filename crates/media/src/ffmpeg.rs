@@ -154,6 +154,11 @@ pub(crate) struct FfmpegFrames {
     bytes: Vec<u8>,
 }
 
+/// Why ffmpeg decodes nothing where the system does not start it, and what to do.
+pub(crate) fn not_started(error: &io::Error) -> String {
+    format!("ffmpeg could not be started ({error}); install ffmpeg")
+}
+
 /// Reason for missing frames.
 pub(crate) enum FfmpegError {
     NotFound(io::Error),

@@ -8,7 +8,7 @@ use symphonia::core::errors::Error as SymphoniaError;
 use crate::container::Container;
 use crate::decoded::{DecodedFrames, DecodedSound};
 use crate::error::MediaError;
-use crate::ffmpeg::{FfmpegError, FfmpegFrames};
+use crate::ffmpeg::{FfmpegError, FfmpegFrames, not_started};
 use crate::file_access::FileAccess;
 use crate::frames::{Frames, Trim};
 use crate::iso::PcmFrames;
@@ -115,9 +115,7 @@ impl Plan {
     fn ffmpeg_error(&self, error: FfmpegError) -> MediaError {
         let (container, codec) = (self.container, self.codec.clone());
         match error {
-            FfmpegError::NotFound(error) => {
-                MediaError::NeedsFfmpeg { container, codec, why: format!("ffmpeg could not be started ({error})") }
-            }
+            FfmpegError::NotFound(error) => MediaError::NeedsFfmpeg { container, codec, why: not_started(&error) },
             FfmpegError::Failed(message) => MediaError::FfmpegFailed { container, codec, message },
         }
     }

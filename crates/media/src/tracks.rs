@@ -8,7 +8,7 @@ use crate::coded::CodedSound;
 use crate::container::{Container, Sniffed};
 use crate::decoded::DecodedSound;
 use crate::error::MediaError;
-use crate::ffmpeg::{self, FfmpegUse};
+use crate::ffmpeg::{self, FfmpegUse, not_started};
 use crate::file_access::FileAccess;
 use crate::frames::Trim;
 use crate::iso;
@@ -328,7 +328,7 @@ impl<'a> Tracks<'a> {
                 Err(MediaError::FfmpegFailed { container, codec, message })
             }
             (Some((_, Err(error))), _) => {
-                let why = format!("ffmpeg could not be started ({error})");
+                let why = not_started(&error);
                 Err(MediaError::NeedsFfmpeg { container, codec, why })
             }
             (None, _) => Err(MediaError::NeedsFfmpeg { container, codec, why: why_no_ffmpeg(self.ffmpeg) }),
@@ -353,8 +353,8 @@ fn codec_guess(file: &dyn FileAccess, container: Container) -> String {
 /// Why no ffmpeg is asked.
 fn why_no_ffmpeg(ffmpeg: &FfmpegUse) -> String {
     match ffmpeg.program() {
-        Some(_) => "ffmpeg could read a copy on a disk only".to_owned(),
-        None => "ffmpeg may not be used here".to_owned(),
+        Some(_) => "ffmpeg reads files on a disk only; copy the recording to a disk".to_owned(),
+        None => "ffmpeg is switched off here; switch it on".to_owned(),
     }
 }
 
@@ -369,7 +369,7 @@ fn inspection(
         return Err(MediaError::NeedsFfmpeg { container, codec, why: why_no_ffmpeg(ffmpeg) });
     };
     let inspection = ffmpeg::inspect(&program, path, 0).map_err(|error| {
-        let why = format!("ffmpeg could not be started ({error})");
+        let why = not_started(&error);
         MediaError::NeedsFfmpeg { container, codec: codec.clone(), why }
     })?;
     if !inspection.has_input || inspection.is_guess {

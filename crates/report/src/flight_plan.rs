@@ -1,5 +1,6 @@
 //! How much flying a wanted uncertainty needs.
 
+use crate::counted;
 use crate::number::significant;
 use hovertone_thrust::{BudgetInput, FlightPlan, PlanWish, compared};
 
@@ -35,11 +36,11 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
         _ => "",
     };
     format!(
-        "{} loads (add {}), {} recordings of each, {:.0} s of hover in each recording: {:.1} minutes of hover\n\
+        "{} loads (add {}), {} of each load, {:.0} s of hover in each recording: {:.1} minutes of hover\n\
          Expected: C_f ± {} % (k = 2). The largest part of this ± comes from: {}.{separated}\n{intercept}\n",
         plan.load_count,
         added.join(", "),
-        plan.trials_per_load,
+        counted(plan.trials_per_load, "recording"),
         plan.trial_s,
         plan.hover_s / 60.0,
         significant(100.0 * plan.expanded_share, 2),

@@ -43,9 +43,9 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
     } else {
         "all recordings of the earlier archive with all of the later one, because no name is in both"
     };
+    let or_no_partner = if drift.is_paired { ", or the other archive has no recording of the same name" } else { "" };
     let unused = format!(
-        "not compared: {} of the earlier archive, {} of the later (no speed was heard, or the other archive has no \
-        recording of the same name)\n",
+        "not compared: {} of the earlier archive, {} of the later (no speed was heard{or_no_partner})\n",
         counted(drift.earlier_unused, "recording"),
         drift.later_unused
     );

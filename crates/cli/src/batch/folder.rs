@@ -132,10 +132,11 @@ impl BatchFolder {
             )
         })?;
         Part::from_bytes(&bytes).map_err(|error| {
-            // where it cannot be removed, the next run says the same
-            let _ = remove_written(&place);
-            let what = format!("the stored result of a recording was damaged, and hovertone removes it: {error}");
-            Failure::failed(what, "run the same command again: it hears only this recording again", &place)
+            let (done, hint) = match remove_written(&place) {
+                Ok(_) => ("is removed now", "run the same command again: it hears only this recording again"),
+                Err(_) => ("could not be removed", "remove this file, then run the same command again"),
+            };
+            Failure::failed(format!("the stored result of a recording is damaged and {done}: {error}"), hint, &place)
         })
     }
 }

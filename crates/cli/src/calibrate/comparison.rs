@@ -189,6 +189,9 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         Reference::Speed { .. } => "speed",
         Reference::Tone { .. } => "frequency",
     };
+    // a wrong digit at the end changes a number by a tenth at most
+    let is_near = (check.heard_over_known - 1.0).abs() < 0.1;
+    let last_digit = if is_near { ", and to the last digit" } else { "" };
     match check.relation {
         Relation::Agrees if !is_rotor => String::new(),
         Relation::Agrees => format!("order (lines per turn): pass, it is {order}\n"),
@@ -208,7 +211,7 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         _ => format!(
             "order (lines per turn): fail. The heard {what} is {ratio} times the known {what}. No other order gives \
              this ratio, and no clock is off by more than {CLOCK_PERCENT_MAX} %. Check the known {what}: was it read \
-             during this recording, and to the last digit? If the known {what} is right, another rotor was heard, or \
+             during this recording{last_digit}? If the known {what} is right, another rotor was heard, or \
              the file was resampled or slowed down.\n"
         ),
     }

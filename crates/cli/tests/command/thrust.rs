@@ -160,7 +160,7 @@ fn a_plan_tells_before_flying() {
         hovertone(&arguments)
     };
     let words = plan("0.025", &["--latitude-deg", "-20.3", "--added-mass-kg", "0.1"]).ends_with(0).stdout;
-    for word in ["loads", "recordings of each", "s of hover", "k = 2", "rotors not separated"] {
+    for word in ["loads", "recordings of each load", "s of hover", "k = 2", "rotors not separated"] {
         assert!(words.contains(word), "{words}");
     }
     // the load that it names tests the law

@@ -48,8 +48,13 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let file: Table = toml::from_str(text).map_err(|error| broken(error.message().to_owned()))?;
     let vehicles: Vec<&Table> =
         file.values().filter_map(Value::as_table).filter(|vehicle| vehicle.contains_key("rpm2thrust")).collect();
-    let [vehicle] = vehicles[..] else {
-        return Err(broken(format!("{} vehicles have rpm2thrust; keep only the one that you mean", vehicles.len())));
+    let vehicle = match vehicles[..] {
+        [vehicle] => vehicle,
+        [] => return Err(broken("no vehicle in it has the key rpm2thrust".to_owned())),
+        _ => {
+            let count = vehicles.len();
+            return Err(broken(format!("{count} vehicles have rpm2thrust; keep only the one that you mean")));
+        }
     };
     let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
     let polynomial = |name: &str| -> Option<[f64; 3]> {
