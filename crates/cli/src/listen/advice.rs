@@ -17,7 +17,7 @@ pub(crate) fn which_is_right(config: &Config, discovery: Option<&Discovery>) -> 
     ];
     let missing: Vec<&str> = facts.into_iter().filter(|(_, is_given)| !is_given).map(|(flag, _)| flag).collect();
     match missing.split_last() {
-        None => "check the flags about the vehicle, such as --blades, or place the microphone nearer".to_owned(),
+        None => "check the given facts about the vehicle, or place the microphone nearer".to_owned(),
         Some((last, [])) => format!("give {last}"),
         Some((last, others)) => format!("give {} and {last}", others.join(", ")),
     }

@@ -268,7 +268,7 @@ mod tests {
     fn what_cannot_be_flown_is_refused() {
         let refused = |maneuver: Maneuver, on_ground: bool| schedule(&[maneuver], on_ground).unwrap_err().to_string();
         assert!(refused(Maneuver::Climb { height_m: 1.0, duration_s: 1.0 }, true).contains("ground"));
-        assert!(refused(Maneuver::TakeOff { height_m: 1.0, duration_s: 1.0 }, false).contains("flies already"));
+        assert!(refused(Maneuver::TakeOff { height_m: 1.0, duration_s: 1.0 }, false).contains("already flies"));
         assert!(refused(Maneuver::Hover { duration_s: 0.0 }, false).contains("hover duration_s"));
         let step = Maneuver::Step { axis: Axis::Roll, amount: 1.5, duration_s: 1.0 };
         assert!(refused(step, false).contains("amount = 1.5, and it "));
