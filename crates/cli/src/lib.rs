@@ -73,6 +73,7 @@ mod vehicles;
 mod verify;
 mod wav;
 mod weigh;
+mod which_speed;
 mod wording;
 
 pub use failure::{Ending, Failure};

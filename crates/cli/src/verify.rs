@@ -11,6 +11,7 @@ use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::{config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
+use crate::which_speed::which_is_right;
 use hovertone::rotors::{LoggedSpeeds, verification_from_log};
 use hovertone::speed::TrackPoint;
 use hovertone_figures::{DOTS_PER_INCH, verification_figure};
@@ -29,6 +30,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     if let Some(notice) = idle_mass(&arguments.known, &config.known) {
         terminal.tip(&notice);
     }
+    let which_is_right = which_is_right(&config, discovery.as_ref());
     let jobs = jobs_of(std::slice::from_ref(&arguments.recording), &config, discovery, Requests::default())?;
     let log = &arguments.log;
     let Some(flight) = flight_of(log, &names)? else {
@@ -47,7 +49,13 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let losses: Vec<Notice> = flight.notes.iter().map(|words| loss_notice(words)).collect();
     terminal.counted_notes_and(&losses, &[record]);
     if record.speed().is_none() {
-        terminal.say("nothing was compared, because no speed was heard in the recording");
+        let or_vehicle = if arguments.tone.vehicle.is_none() { ", or give --vehicle NAME" } else { "" };
+        terminal.say(&match record.is_ambiguous() {
+            true => format!(
+                "nothing was compared, because several speeds are possible; to find the right speed, {which_is_right}{or_vehicle}"
+            ),
+            false => "nothing was compared, because no speed was heard in the recording".to_owned(),
+        });
         return Ok(Ending::Incomplete);
     }
     let logged = LoggedSpeeds { time_s: &speeds.time_s, names: &speeds.names, speeds_rev_s: &speeds.values };

@@ -7,10 +7,10 @@ use crate::octave::{Octave, PossibleSpeed};
 use crate::recent::Recent;
 use crate::review::{HeardRotors, Reviewed, review};
 use crate::settings::LiveConfig;
-use hovertone_analysis::NoTone;
-use hovertone_rotor_speed::{Discovery, Error};
+use hovertone_analysis::{NoTone, OtherRotor, Warning};
+use hovertone_rotor_speed::{Discovery, Error, blades_known};
 use hovertone_signal::{Signal, SignalSource};
-use hovertone_vehicle::RotorSpeed;
+use hovertone_vehicle::{KnownRotor, RotorSpeed};
 
 /// Largest ratio of a chosen speed and the speeds that are still searched for. *Decision.*
 const CHOSEN_RANGE: f64 = 1.25;
@@ -197,11 +197,49 @@ impl Listener {
         self.heard.as_ref().filter(|_| self.is_following()).map_or(&[], |heard| &heard.rotors_rev_s)
     }
 
+    /// The rotor that is far more probable than the given one, where the last review of the followed rotors heard one: the sound contradicts the
+    /// given facts.
+    pub fn more_probable(&self) -> Option<OtherRotor> {
+        let heard = self.heard.as_ref().filter(|_| self.is_following())?;
+        heard
+            .doubts
+            .iter()
+            .find_map(|doubt| if let Warning::FitsElsewhere(other) = doubt { Some(*other) } else { None })
+    }
+
     /// Why the last review heard no rotor, or why its speed is doubtful; empty where all is well.
     pub fn remark(&self) -> String {
         match self.heard.as_ref().filter(|_| self.is_following()) {
             Some(heard) => heard.doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
-            None => self.reason.as_ref().map_or_else(String::new, ToString::to_string),
+            None => self.reason.as_ref().map_or_else(String::new, |reason| self.reason_in_words(reason)),
         }
+    }
+
+    /// Why no rotor is heard. A tone that the given blades may make asks for no other number of blades: a few seconds of sound seldom tell which of
+    /// two numbers is right.
+    fn reason_in_words(&self, reason: &NoTone) -> String {
+        let NoTone::NoSeries { only_rev_s: None, instead: Some(other) } = reason else { return reason.to_string() };
+        let tone_hz = f64::from(other.blades) * other.speed_rev_s;
+        self.speed_of_given_blades(tone_hz).map_or_else(
+            || reason.to_string(),
+            |speed| {
+                format!(
+                    "a tone near {tone_hz:.0} Hz fits the given facts at {:.1} rev/s, but it is not clear yet whether a rotor makes it; listen for \
+                     longer, and if it stays so, check the given facts",
+                    speed.rev_s()
+                )
+            },
+        )
+    }
+
+    /// The speed at which the given blades make a tone; `None` where no blades are given, and where other given facts may exclude that speed.
+    fn speed_of_given_blades(&self, tone_hz: f64) -> Option<RotorSpeed> {
+        let (tone, known) = (&self.config.analysis.tone, self.config.analysis.known);
+        let blades = f64::from(blades_known(tone)?);
+        let speed = RotorSpeed::from_rev_s(tone_hz / blades);
+        let are_blades_alone = known == KnownRotor { rotor_count: known.rotor_count, ..KnownRotor::default() };
+        let is_followed = tone.order.lines_per_turn() == blades && tone.band_hz.is_none();
+        let is_searched = (tone.speed_min.rad_s()..=tone.speed_max.rad_s()).contains(&speed.rad_s());
+        (are_blades_alone && is_followed && is_searched).then_some(speed)
     }
 }

@@ -9,7 +9,8 @@ pub struct LiveSpeed {
     pub time_s: f64,
     /// Whether a rotor is heard, and its octave decided.
     pub status: LiveStatus,
-    /// Shaft speed; of several rotors their mean. Where the octave is not decided, the most probable one. `None` where no rotor is heard.
+    /// Shaft speed; of several rotors their mean. Where the octave is not decided, the speed that is followed, which is one of
+    /// [`crate::Listener::possible`]. `None` where no rotor is heard.
     pub speed_rev_s: Option<f64>,
     /// Its combined standard uncertainty: of the noise of the frames, and of the last review.
     pub std_uncertainty_rev_s: Option<f64>,

@@ -30,7 +30,8 @@ pub struct PossibleSpeed {
 }
 
 impl PossibleSpeed {
-    fn is_same(&self, speed_rev_s: f64) -> bool {
+    /// Whether a speed is this one, up to the wander between two reviews.
+    pub fn is_same(&self, speed_rev_s: f64) -> bool {
         (self.speed_rev_s / speed_rev_s).ln().abs() < SAME_LOG_RATIO
     }
 }

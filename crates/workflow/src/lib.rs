@@ -18,6 +18,6 @@ mod said;
 pub use drawing::{Drawing, drawing_of, trial_of};
 pub use hearing::{Heard, NotHeard, Requests, Share, Task, facts_of, failed_record, hear, notices_of, progress_of};
 pub use identified::{Identified, TipsTooFast, Titles};
-pub use live::{LiveLine, live_remark, live_status_in_words, live_words, possible_in_words};
+pub use live::{LiveLine, live_remark, live_status_in_words, live_words, possible_in_words, possible_speeds_in_words};
 pub use report::{Drawn, ReportExtras, ReportFigures, simulators_of};
 pub use said::{NoSettings, Said, set_rotors};

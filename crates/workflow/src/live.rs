@@ -1,9 +1,12 @@
 //! What is heard now, in words and as JSON: the same for lines, screens and the page.
 
 use hovertone::live::{Listener, LiveSpeed, LiveStatus, PossibleSpeed};
-use hovertone_report::{LiveWords, Wording, counted, live_speed_in_words};
+use hovertone_report::{LiveWords, Wording, counted, live_speed_in_words, significant};
 use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
+
+/// Digits of a speed without a ±.
+const DIGITS: usize = 3;
 
 /// Sound that arrives has no parts to choose.
 const LIVE: Wording = Wording::of_phrases(&[
@@ -45,6 +48,28 @@ pub fn possible_in_words(possible: &PossibleSpeed) -> String {
     format!("{speed_rev_s:.1} rev/s, {tone}, probability {:.0} %", 100.0 * belief)
 }
 
+/// "42.4 or 84.7 rev/s", the most probable first; `None` where there are not two different speeds.
+///
+/// The possible speeds are those of the last review. They have changed since then as the speed that is followed.
+pub fn possible_speeds_in_words(possible: &[PossibleSpeed], followed_rev_s: Option<f64>) -> Option<String> {
+    let change = followed_rev_s.and_then(|followed_rev_s| {
+        let at_review = possible.iter().find(|one| one.is_same(followed_rev_s))?;
+        Some(followed_rev_s / at_review.speed_rev_s)
+    });
+    let mut speeds_rev_s: Vec<f64> = Vec::new();
+    for one in possible {
+        if !speeds_rev_s.iter().any(|&speed_rev_s| one.is_same(speed_rev_s)) {
+            speeds_rev_s.push(one.speed_rev_s);
+        }
+    }
+    let [first, second, others @ ..] = speeds_rev_s.as_slice() else { return None };
+    let in_words = |speed_rev_s: &f64| significant(change.unwrap_or(1.0) * speed_rev_s, DIGITS);
+    let others: Vec<String> = others.iter().map(in_words).collect();
+    let less_probable =
+        if others.is_empty() { String::new() } else { format!(" (less probable: {})", others.join(", ")) };
+    Some(format!("{} or {} rev/s{less_probable}", in_words(first), in_words(second)))
+}
+
 /// One line of `hovertone listen --json`.
 #[derive(Serialize)]
 pub struct LiveLine<'a> {
@@ -67,6 +92,7 @@ impl<'a> LiveLine<'a> {
 mod tests {
     use super::*;
     use hovertone::speed::NoTone;
+    use hovertone_vehicle::Order;
 
     #[test]
     fn advice_about_live_sound_chooses_no_part() {
@@ -78,6 +104,20 @@ mod tests {
             let said = reason.to_string();
             assert!(said.contains("--from") && !LIVE.of(&said).contains("--"), "{said}");
         }
+    }
+
+    #[test]
+    fn each_possible_speed_is_named_once_and_the_most_probable_first() {
+        let possible = |speeds_rev_s: &[f64], followed_rev_s: Option<f64>| {
+            let order = Order::from_blades(2).unwrap();
+            let one = |&speed_rev_s: &f64| PossibleSpeed { order, blades: Some(2), speed_rev_s, belief: 0.3 };
+            possible_speeds_in_words(&speeds_rev_s.iter().map(one).collect::<Vec<_>>(), followed_rev_s)
+        };
+        assert_eq!(possible(&[42.37, 84.73, 42.36], None).unwrap(), "42.4 or 84.7 rev/s");
+        assert_eq!(possible(&[42.0, 84.0], Some(86.0)).unwrap(), "43.0 or 86.0 rev/s");
+        let more = possible(&[310.1, 155.0, 103.4, 77.5], None).unwrap();
+        assert_eq!(more, "310 or 155 rev/s (less probable: 103, 77.5)");
+        assert_eq!(possible(&[42.37, 42.36], None), None);
     }
 
     fn speed(speed_rev_s: Option<f64>, std_rev_s: f64) -> LiveSpeed {

@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Which tone")]
 pub(crate) struct ToneArguments {
     /// Number of blades of each propeller: without --gear, hovertone follows the tone of the blades (blade pass)

@@ -1,43 +1,71 @@
-//! What a person can do where several live speeds are possible. It names only facts that were not given.
+//! Advice about live sound that names the flags which were given.
 
-use hovertone::speed::Config;
-use hovertone::tones::Discovery;
+use crate::args::{KnownArguments, ToneArguments};
 
-/// "count the blades and give --blades N", "give --mass-kg and --rotors".
-pub(crate) fn which_is_right(config: &Config, discovery: Option<&Discovery>) -> String {
-    let blades = config.tone.blades.or_else(|| discovery?.known.blade_count);
-    if blades.is_none() {
-        return "count the blades and give --blades N".to_owned();
+/// Words before "the given facts" that make sense before flags too.
+const BEFORE_FACTS: [&str; 4] = ["in place of", "check", "fits", "contradicts"];
+
+/// What a person can do.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Advice {
+    /// What to do where several speeds are possible.
+    which_is_right: String,
+    /// The flags about the rotor, as "--blades 2 and --mass-kg".
+    given: String,
+}
+
+impl Advice {
+    pub(crate) fn new(tone: &ToneArguments, known: &KnownArguments, which_is_right: String) -> Self {
+        let flags = [
+            tone.vehicle.as_ref().map(|name| format!("--vehicle {name}")),
+            tone.blades.map(|blades| format!("--blades {blades}")),
+            tone.gear.map(|_| "--gear".to_owned()),
+            tone.order.map(|_| "--order".to_owned()),
+            tone.band.map(|_| "--band".to_owned()),
+            known.diameter_m.map(|_| "--diameter-m".to_owned()),
+            known.mass_kg.map(|_| "--mass-kg".to_owned()),
+        ];
+        let flags: Vec<String> = flags.into_iter().flatten().collect();
+        let given = match flags.split_last() {
+            None => "the given facts".to_owned(),
+            Some((only, [])) => only.clone(),
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        };
+        Self { which_is_right, given }
     }
-    let known = discovery.map_or(config.known, |discovery| discovery.known);
-    let facts = [
-        ("--diameter-m", known.diameter_m.is_some()),
-        ("--mass-kg", known.mass_kg.is_some()),
-        ("--rotors", known.rotor_count.is_some()),
-    ];
-    let missing: Vec<&str> = facts.into_iter().filter(|(_, is_given)| !is_given).map(|(flag, _)| flag).collect();
-    match missing.split_last() {
-        None => "check the given facts about the vehicle, or place the microphone nearer".to_owned(),
-        Some((last, [])) => format!("give {last}"),
-        Some((last, others)) => format!("give {} and {last}", others.join(", ")),
+
+    pub(crate) fn which_is_right(&self) -> &str {
+        &self.which_is_right
+    }
+
+    /// The flags that were given.
+    pub(crate) fn given(&self) -> &str {
+        &self.given
+    }
+
+    /// A remark that names the given flags.
+    pub(crate) fn naming(&self, remark: &str) -> String {
+        BEFORE_FACTS.iter().fold(remark.to_owned(), |remark, before| {
+            remark.replace(&format!("{before} the given facts"), &format!("{before} {}", self.given))
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hovertone::speed::ToneConfig;
-    use hovertone_vehicle::{KnownRotor, Order};
 
     #[test]
-    fn only_facts_that_are_missing_are_asked_for() {
-        let mut config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
-        assert_eq!(which_is_right(&config, None), "count the blades and give --blades N");
-        config.tone.blades = Some(2);
-        assert_eq!(which_is_right(&config, None), "give --diameter-m, --mass-kg and --rotors");
-        config.known = KnownRotor { diameter_m: Some(0.2), mass_kg: Some(0.4), ..KnownRotor::default() };
-        assert_eq!(which_is_right(&config, None), "give --rotors");
-        config.known.rotor_count = Some(4);
-        assert!(!which_is_right(&config, None).contains("--"));
+    fn a_remark_names_the_flags_that_were_given() {
+        let tone = ToneArguments { blades: Some(2), ..ToneArguments::default() };
+        let known = KnownArguments { mass_kg: Some(0.4), ..KnownArguments::default() };
+        let advice = Advice::new(&tone, &known, String::new());
+        assert_eq!(
+            advice.naming("no rotor that fits the given facts is heard; check the given facts"),
+            "no rotor that fits --blades 2 and --mass-kg is heard; check --blades 2 and --mass-kg"
+        );
+        let advice = Advice::new(&tone, &KnownArguments::default(), String::new());
+        let told = advice.naming("give --blades 4 alone, in place of the given facts");
+        assert_eq!(told, "give --blades 4 alone, in place of --blades 2");
     }
 }

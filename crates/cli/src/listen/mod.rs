@@ -12,13 +12,13 @@ mod view;
 
 use crate::args::{AnalysisArguments, ListenArguments};
 use crate::failure::{Ending, Failure};
-use crate::listen::advice::which_is_right;
 use crate::settings::{config_of, idle_mass};
 use crate::terminal::Terminal;
+use crate::which_speed::which_is_right;
+use advice::Advice;
 use hovertone::live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
 use hovertone_report::Notice;
 use hovertone_vehicle::{RotorSpeed, check_range, check_tips};
-use hovertone_workflow::live_remark;
 use lines::{PlainLines, json_line};
 use pace::Pace;
 use screen::{Key, Screen};
@@ -48,17 +48,19 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         terminal.tip(&notice);
     }
     let mut sound = LiveSound::open(arguments.from_file.as_deref(), arguments.channel)?;
-    let advice = which_is_right(&config, discovery.as_ref());
+    let which_is_right = which_is_right(&config, discovery.as_ref());
+    let advice = Advice::new(&arguments.tone, &arguments.known, which_is_right);
+    let mut summary = LiveSummary::new(config.hover.held_s_min);
     let config = LiveConfig::of_analysis(config, discovery);
     let block_samples = (config.every_s * sound.sample_rate_hz()) as usize;
     let mut listener = Listener::new(sound.sample_rate_hz(), config).map_err(unheard)?;
     let mut output = match (arguments.json, arguments.plain || !stdout().is_terminal()) {
         (true, _) => Output::Json,
-        (false, true) => Output::Plain(PlainLines::new(advice)),
-        (false, false) => Output::Screen(Box::new(Screen::open()?), Box::new(View::new(sound.name(), advice))),
+        (false, true) => Output::Plain(PlainLines::new(advice.clone())),
+        (false, false) => Output::Screen(Box::new(Screen::open()?), Box::new(View::new(sound.name(), advice.clone()))),
     };
     let pace = Pace::new(arguments.speed);
-    let (mut summary, mut too_fast) = (LiveSummary::default(), None);
+    let mut too_fast = None;
     while let Some(samples) = sound.next_block()? {
         for mut rest in samples.chunks(block_samples.max(1)) {
             while !rest.is_empty() {
@@ -68,7 +70,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
                 if is_reviewed {
                     listener.review().map_err(unheard)?;
                 }
-                arrived.iter().for_each(|speed| summary.add(speed));
+                arrived.iter().for_each(|speed| summary.add(speed, listener.more_probable()));
                 too_fast = too_fast.or_else(|| tips_too_fast(arguments.known.diameter_m, &arrived?));
                 let wait = pace.time_left(listener.heard_s());
                 if !tell(&mut output, arrived, is_reviewed, wait, &mut listener, terminal)? {
@@ -77,8 +79,8 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
             }
         }
     }
-    if let Output::Plain(lines) = &output {
-        terminal.data(&lines.closing_line().unwrap_or_default())?;
+    if let Output::Plain(_) = &output {
+        terminal.data(&summary.in_words(&advice).unwrap_or_default())?;
         terminal.flush()?;
     }
     sound.notices().iter().chain(&too_fast).for_each(|notice| terminal.warning(notice, ""));
@@ -103,10 +105,7 @@ fn tell(
 ) -> Result<bool, Failure> {
     let lines = match output {
         Output::Json => arrived.map(|speed| json_line(&speed, listener)).transpose()?,
-        Output::Plain(lines) => {
-            let remark = live_remark(listener);
-            arrived.and_then(|speed| lines.line(&speed, &remark))
-        }
+        Output::Plain(lines) => arrived.and_then(|speed| lines.line(&speed, listener)),
         Output::Screen(screen, view) => {
             if is_reviewed {
                 view.take_review(listener);

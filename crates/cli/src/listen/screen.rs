@@ -114,14 +114,15 @@ fn draw_title(frame: &mut Frame<'_>, area: Rect, view: &View) {
     frame.render_widget(Line::from(clock).alignment(Alignment::Right), time);
 }
 
-/// The speed in large figures, and its uncertainty and other units beside; or why there is none.
+/// The speed in large figures, and its uncertainty and other units beside; or why there is none, or not one.
 fn draw_speed(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let Some(now) = view.now else {
         frame.render_widget(Paragraph::new(" the first answer comes after two seconds of sound"), area);
         return;
     };
     let status = live_status_in_words(now.status, &view.remark);
-    let Some((speed_rev_s, words)) = now.speed_rev_s.zip(live_words(&now)) else {
+    let one_speed = live_words(&now).filter(|_| now.status == LiveStatus::Ok);
+    let Some((speed_rev_s, words)) = now.speed_rev_s.zip(one_speed) else {
         let text = Paragraph::new(format!(" {status}")).wrap(Wrap { trim: false });
         frame.render_widget(text.yellow(), area);
         return;
@@ -129,10 +130,9 @@ fn draw_speed(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let decimals = words.speed_rev_s.split_once('.').map_or(0, |(_, decimals)| decimals.len().min(DECIMALS_LARGE));
     let figures = large_figures(&format!("{speed_rev_s:.decimals$}"));
     let width = figures[0].chars().count() as u16 + 3;
-    let colour = if now.status == LiveStatus::Ok { Color::Green } else { Color::Yellow };
     let [large, beside] = Layout::horizontal([Constraint::Length(width), Constraint::Min(20)]).areas(area);
     let rows: Vec<Line<'_>> = figures.into_iter().map(|row| Line::from(format!(" {row}"))).collect();
-    frame.render_widget(Paragraph::new(rows).style(Style::new().fg(colour)), large);
+    frame.render_widget(Paragraph::new(rows).style(Style::new().fg(Color::Green)), large);
     let lines = vec![
         Line::from("rev/s"),
         Line::from(format!("± {} (k = 2)", words.plus_minus_rev_s)),
@@ -179,7 +179,10 @@ fn draw_choices(frame: &mut Frame<'_>, area: Rect, view: &View) {
     if view.choices.is_empty() {
         return;
     }
-    let first = Line::from(format!(" Which speed is right? Press its number. Or start again, and {}.", view.advice));
+    let first = Line::from(format!(
+        " Which speed is right? Press its number. Or start again, and {}.",
+        view.advice.which_is_right()
+    ));
     let line = |(index, choice): (usize, &String)| Line::from(format!("   {}  {choice}", index + 1));
     let lines = std::iter::once(first).chain(view.choices.iter().take(9).enumerate().map(line));
     frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()).yellow(), area);
@@ -266,6 +269,7 @@ fn large_figures(text: &str) -> [String; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::listen::advice::Advice;
     use hovertone::live::LiveSpeed;
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
@@ -279,7 +283,7 @@ mod tests {
     }
 
     fn view_of(speed_rev_s: Option<f64>) -> View {
-        let mut view = View::new("hover.wav".to_owned(), "give --rotors".to_owned());
+        let mut view = View::new("hover.wav".to_owned(), Advice::default());
         for n in 0..300 {
             view.take(LiveSpeed {
                 time_s: 0.1 * f64::from(n),
@@ -323,9 +327,12 @@ mod tests {
         view.remark = "no series of lines that a rotor can make stands out of the noise".to_owned();
         assert!(text_of(&view, 80, 24).contains("no rotor tone: no series of lines"));
         let mut view = view_of(Some(120.0));
+        view.take(LiveSpeed { status: LiveStatus::Ambiguous, ..view.now.unwrap() });
         view.choices = vec!["120.0 rev/s, 2 blades".to_owned(), "60.0 rev/s, 4 blades".to_owned()];
         let text = text_of(&view, 80, 24);
         assert!(text.contains("2  60.0 rev/s, 4 blades") && text.contains("1–9 choose"), "{text}");
+        // a ± is that of one speed
+        assert!(text.contains("several speeds are possible") && !text.contains('±'), "{text}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! What the screen shows: the speed now, the last minute, and what the last review found.
 
+use crate::listen::advice::Advice;
 use hovertone::live::{Listener, LiveSpeed};
 use hovertone_workflow::{live_remark, possible_in_words};
 use std::collections::VecDeque;
@@ -22,12 +23,11 @@ pub(crate) struct View {
     /// Why no rotor is heard, or why the speed is doubtful.
     pub(crate) remark: String,
     pub(crate) is_frozen: bool,
-    /// What to do where several speeds are possible.
-    pub(crate) advice: String,
+    pub(crate) advice: Advice,
 }
 
 impl View {
-    pub(crate) fn new(source: String, advice: String) -> Self {
+    pub(crate) fn new(source: String, advice: Advice) -> Self {
         Self {
             source,
             now: None,
@@ -59,7 +59,7 @@ impl View {
         }
         self.rotors_rev_s = listener.rotors_rev_s().to_vec();
         self.choices = listener.possible().iter().map(possible_in_words).collect();
-        self.remark = live_remark(listener);
+        self.remark = self.advice.naming(&live_remark(listener));
     }
 }
 
@@ -81,7 +81,7 @@ mod tests {
 
     #[test]
     fn the_strip_holds_a_minute_and_a_frozen_screen_stays() {
-        let mut view = View::new("x.wav".to_owned(), String::new());
+        let mut view = View::new("x.wav".to_owned(), Advice::default());
         (0..900).for_each(|n| view.take(speed(0.1 * f64::from(n), (n % 2 == 0).then_some(100.0))));
         assert!(view.strip.len() == 300 || view.strip.len() == 301, "{}", view.strip.len());
         view.is_frozen = true;

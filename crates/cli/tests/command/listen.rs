@@ -1,6 +1,8 @@
 //! `listen`: sound as it arrives, as lines and on a screen.
 
-use crate::testkit::{hovertone, hovertone_with, refused_with, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{
+    hovertone, hovertone_with, recordings, refused_with, steady_hover, text, write_hover, write_noise,
+};
 use hovertone_vehicle::RotorSpeed;
 use portable_pty::{CommandBuilder, PtySize, native_pty_system};
 use std::fs::File;
@@ -62,6 +64,68 @@ fn the_last_line_has_the_mean_and_the_time_that_had_a_speed() {
     let mean_rev_s: f64 = last.strip_prefix("mean: ").unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!((mean_rev_s - 60.0).abs() < 0.3, "{last}");
     assert!(last.contains(" ± ") && last.ends_with(" s of 6.0 s"), "{last}");
+}
+
+/// Cars and machines resemble a rotor for some seconds.
+#[test]
+fn sound_without_a_rotor_has_no_mean() {
+    for (folder, file, words) in [
+        (
+            "small-multirotors",
+            "BACKGROUND_001.wav",
+            "several speeds were possible; to find the right speed, give --diameter-m",
+        ),
+        ("real", "BACKGROUND_006.flac", "a mean needs one speed for 3 s without a gap: hover for longer, or place"),
+    ] {
+        let Some(folder) = recordings(folder) else { return };
+        let file = folder.join(file);
+        let run = hovertone(&["listen", "--blades", "2", "--speed", "1000", "--from-file", text(&file)]).ends_with(3);
+        let last = run.stdout.lines().last().unwrap();
+        assert!(last.starts_with("no mean: one speed was clear in only ") && last.contains(words), "{last}");
+    }
+}
+
+#[test]
+fn of_several_possible_speeds_none_has_a_plus_minus() {
+    let Some(folder) = recordings("small-multirotors") else { return };
+    let file = folder.join("DRONE_001.wav");
+    let run = hovertone(&["listen", "--speed", "1000", "--from-file", text(&file)]).ends_with(3);
+    let lines: Vec<&str> = run.stdout.lines().skip(1).filter(|line| line.contains("speeds are possible")).collect();
+    assert!(lines.len() >= 5, "{}", run.stdout);
+    for line in lines {
+        assert!(line.contains(" or ") && line.contains(" rev/s") && !line.contains('±'), "{line}");
+    }
+}
+
+/// 4 blades at 42.4 rev/s and 2 blades at 84.8 rev/s have the same tone.
+#[test]
+fn a_tone_of_the_given_blades_asks_for_no_other_blades() {
+    let Some(folder) = recordings("small-multirotors") else { return };
+    let file = folder.join("DRONE_001.wav");
+    let run = hovertone(&["listen", "--blades", "2", "--speed", "1000", "--from-file", text(&file)]).ends_with(0);
+    assert!(
+        run.stdout.contains("fits --blades 2 at 84.") && run.stdout.contains("listen for longer"),
+        "{}",
+        run.stdout
+    );
+    assert!(!run.stdout.contains("--blades 4") && !run.stdout.contains("the given facts"), "{}", run.stdout);
+}
+
+#[test]
+fn a_mean_that_contradicts_the_given_vehicle_is_not_to_be_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(60.1), 6.0));
+    let words = ["listen", "--vehicle", "crazyflie", "--speed", "1000", "--from-file", text(&sound)];
+    let run = hovertone(&words).ends_with(3);
+    let last = run.stdout.lines().last().unwrap();
+    assert!(
+        last.contains("do not use this mean, because the sound contradicts --vehicle crazyflie: "),
+        "{}",
+        run.stdout
+    );
+    assert!(last.ends_with("; check --vehicle crazyflie"), "{}", run.stdout);
+    hovertone(&[&words[..], &["--json"]].concat()).ends_with(3);
 }
 
 #[test]

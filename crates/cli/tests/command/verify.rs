@@ -1,6 +1,6 @@
 //! `hovertone verify`: sound of a simulated flight against a log of it.
 
-use crate::testkit::{flown_hover, hovertone, refused_with, text, write_steady_hover_and_log};
+use crate::testkit::{flown_hover, hovertone, recordings, refused_with, text, write_steady_hover_and_log};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -122,4 +122,16 @@ fn nothing_to_compare_ends_with_a_sentence() {
     let run = hovertone(&["verify", text(&noise), text(&log), "--blades", "2"]).ends_with(1);
     assert!(run.stderr.contains("no rotor speed in this log"), "{}", run.stderr);
     refused_with(&["verify", text(&noise)], &["verify needs the log of the same flight"]);
+}
+
+#[test]
+fn several_possible_speeds_name_the_flags_that_decide() {
+    let Some(folder) = recordings("small-multirotors") else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let log = scratch.path().join("log.csv");
+    fs::write(&log, "time_s,rotor1_rpm\n0,5040\n1,5100\n2,5040\n").unwrap();
+    let run = hovertone(&["verify", text(&folder.join("DRONE_001.wav")), text(&log)]).ends_with(3);
+    let words = "nothing was compared, because several speeds are possible; to find the right speed, count the blades and give --blades N, or \
+                 give --vehicle NAME";
+    assert!(run.stderr.contains(words) && !run.stderr.contains("no speed was heard"), "{}", run.stderr);
 }
