@@ -129,7 +129,11 @@ impl<'a> Plan<'a> {
             let what = format!("this file is neither a log nor a recording that hovertone can hear: {reason}");
             Failure::failed(what, "give a log, or a video or audio file", file)
         })?;
-        let mut sound = MotorSound { has_commands: commands.is_some(), ..MotorSound::default() };
+        let mut sound = MotorSound {
+            has_commands: commands.is_some(),
+            blades: self.arguments.tone.blades,
+            ..MotorSound::default()
+        };
         let (mut motors, mut rows, mut misaligned) = (Vec::new(), Vec::new(), None);
         match heard.motor {
             Err(reason) => sound.no_tone = Some(reason.to_string()),

@@ -48,6 +48,8 @@ pub struct MotorSound {
     pub offset_s: Option<f64>,
     /// Whether commands were given.
     pub has_commands: bool,
+    /// The number of blades that was given.
+    pub blades: Option<u32>,
 }
 
 /// A log or a recording, and its motors.
@@ -88,6 +90,13 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += "the log has too few rows for a time constant: a motor reaches its speed within 300 ms, and 3 rows or more must lie in this time\n";
     } else if !has_steps {
         text += "no step: the speed never changes from one steady value to another\n";
+    }
+    if let MotorSource::Sound(MotorSound { blades: Some(blades), .. }) = record.source
+        && !record.has_time_constant()
+    {
+        text += &format!(
+            "check the number of blades (--blades {blades}): with a wrong number, hovertone may follow another tone and miss steps\n"
+        );
     }
     if has_steps {
         text += &format!("\n{}", table_text(&steps_table(record), width));
@@ -163,7 +172,7 @@ fn steps_table(record: &MotorRecord) -> TextTable {
             significant(step.speed_to_rev_s, DIGITS),
             in_ms(step.time_constant_s),
             in_ms(step.dead_time_s),
-            verdict_in_words(step.verdict).to_owned(),
+            verdict_in_words(step.verdict, &record.source).to_owned(),
         ]);
     }
     shown
@@ -208,10 +217,13 @@ pub(crate) fn in_ms(estimate: Option<Estimate>) -> String {
     })
 }
 
-fn verdict_in_words(verdict: StepVerdict) -> &'static str {
+fn verdict_in_words(verdict: StepVerdict, source: &MotorSource) -> &'static str {
     match verdict {
         StepVerdict::Used => "",
-        StepVerdict::TooSlowRows => "left out: the log has too few rows for so fast a change",
+        StepVerdict::TooSlowRows => match source {
+            MotorSource::Log => "left out: the log has too few rows for so fast a change",
+            MotorSource::Sound(_) => "left out: the change is too fast for pieces of sound of this length",
+        },
         StepVerdict::Saturated => "left out: the speed no longer follows the command (saturated)",
         StepVerdict::AtRest => "left out: the motor starts or stops",
         StepVerdict::OtherCurve => "left out: not an exponential approach to the new speed",

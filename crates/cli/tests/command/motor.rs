@@ -263,3 +263,24 @@ fn what_is_neither_log_nor_recording_ends_with_a_sentence() {
     assert!(run.stderr.contains("has no motor commands") && run.stderr.contains("motor1_pwm"), "{}", run.stderr);
     refused_with(&["motor", text(&noise), "--offset", "1"], &["--commands"]);
 }
+
+#[test]
+fn a_recording_heard_with_the_wrong_blades_asks_to_check_them() {
+    let Some(folder) = recordings("motor-step") else { return };
+    let wav = text(&folder.join("motor_step.wav")).to_owned();
+    let told = |flags: &[&str]| hovertone(&[&["motor", &wav], flags].concat());
+    let run = told(&["--blades", "4"]).ends_with(3);
+    assert!(
+        run.stdout.contains("left out: the change is too fast for pieces of sound of this length"),
+        "{}",
+        run.stdout
+    );
+    assert!(!run.stdout.contains("the log has"), "{}", run.stdout);
+    assert!(run.stdout.contains("check the number of blades (--blades 4)"), "{}", run.stdout);
+    let run = told(&["--blades", "3", "--rotors", "1"]).ends_with(3);
+    for words in ["no step: the speed never changes", "check the number of blades (--blades 3)"] {
+        assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
+    }
+    let run = told(&["--blades", "2", "--rotors", "1"]).ends_with(0);
+    assert!(!run.stdout.contains("check the number of blades"), "{}", run.stdout);
+}
