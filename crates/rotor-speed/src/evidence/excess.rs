@@ -143,16 +143,16 @@ impl Excess {
 }
 
 impl ExcessFrame {
-    /// The highest level within a bin of a frequency, where bins are `bin_hz` apart; [`UNKNOWN`] where lines are left out of the sound. `None`
-    /// outside the band.
-    pub(super) fn highest_near(&self, hz: f64, bin_hz: f64) -> Option<Level> {
-        let bin = (hz / bin_hz + 0.5) as usize;
-        self.levels.get(bin.saturating_sub(1)..bin + 2)?.iter().copied().max()
+    /// Whether the band has a line at a frequency, where bins are `bin_hz` apart.
+    pub(super) fn holds(&self, hz: f64, bin_hz: f64) -> bool {
+        ((hz / bin_hz + 0.5) as usize) + 2 <= self.levels.len()
     }
 
-    /// The same, and `None` where it is unknown.
+    /// The highest level within a bin of a frequency, where bins are `bin_hz` apart. `None` outside the band, and where lines are left out of the
+    /// sound.
     pub(super) fn level_near(&self, hz: f64, bin_hz: f64) -> Option<Level> {
-        self.highest_near(hz, bin_hz).filter(|level| *level != UNKNOWN)
+        let bin = (hz / bin_hz + 0.5) as usize;
+        self.levels.get(bin.saturating_sub(1)..bin + 2)?.iter().copied().max().filter(|level| *level != UNKNOWN)
     }
 }
 

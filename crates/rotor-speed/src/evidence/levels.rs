@@ -2,7 +2,7 @@
 
 use super::excess::Excess;
 use super::level_model::{LAST_HARMONIC, OrderLevel, RotorLevels};
-use super::level_table::{self, UNKNOWN};
+use super::level_table;
 use super::rotor_lines::RotorLines;
 use super::votes::MESH_HARMONICS;
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
@@ -33,9 +33,8 @@ pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Opt
     for (frame, speed_rev_s) in excess.frames.iter().zip(speeds_rev_s) {
         let hz = order * speed_rev_s;
         hz_sum += hz;
-        let Some(level) = frame.highest_near(hz, excess.bin_hz) else { continue };
-        inside += 1;
-        if level != UNKNOWN {
+        inside += u32::from(frame.holds(hz, excess.bin_hz));
+        if let Some(level) = frame.level_near(hz, excess.bin_hz) {
             sum += u32::from(level);
             count += 1;
         }

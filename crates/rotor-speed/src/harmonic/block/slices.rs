@@ -2,7 +2,7 @@
 
 use super::SpeedLine;
 use crate::harmonic::demodulation::Line;
-use crate::harmonic::phasors::OrderPhasors;
+use crate::harmonic::phasors::{OrderPhasors, small_turn};
 use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::channels::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
@@ -62,23 +62,20 @@ impl BlockSlices {
         let slices = count.div_ceil(per_slice);
         let halves = count.div_ceil(HALF_HOP_TICKS);
         let (turns, speeds) = lead_over_path(path, &ticks, guess);
+        let mut phasors = OrderPhasors::new(&turns);
         let mut turned = Vec::with_capacity(count);
         let mut sums = vec![Complex::default(); lines.len() * slices];
         let mut half_hops = vec![Complex::default(); lines.len() * halves];
-        let mut into = sums.chunks_exact_mut(slices).zip(half_hops.chunks_exact_mut(halves));
-        for lines in lines.chunk_by(|one, next| one.samples_per_tick == next.samples_per_tick) {
+        for ((line, sums), half_hops) in
+            lines.iter().zip(sums.chunks_exact_mut(slices)).zip(half_hops.chunks_exact_mut(halves))
+        {
             // the mean time of the samples of a tick is half a sample before its middle
-            let half_sample_s = lines.first().map_or(0.0, |line| tick_s / line.samples_per_tick / 2.0);
-            let turns: Vec<f64> =
-                turns.iter().zip(&speeds).map(|(turns, speed)| turns - speed * half_sample_s).collect();
-            let mut phasors = OrderPhasors::new(&turns);
-            for (line, (sums, half_hops)) in lines.iter().zip(into.by_ref()) {
-                let ticks = line.ticks[ticks.clone()].iter().zip(phasors.of(line.order));
-                turned.clear();
-                turned.extend(ticks.map(|(z, phasor)| z * phasor));
-                sum_chunks(&turned, per_slice, sums);
-                sum_chunks(&turned, HALF_HOP_TICKS, half_hops);
-            }
+            let half_sample = TAU * line.order * tick_s / line.samples_per_tick / 2.0;
+            let ticks = line.ticks[ticks.clone()].iter().zip(phasors.of(line.order)).zip(&speeds);
+            turned.clear();
+            turned.extend(ticks.map(|((z, phasor), speed)| z * phasor * small_turn(speed * half_sample)));
+            sum_chunks(&turned, per_slice, sums);
+            sum_chunks(&turned, HALF_HOP_TICKS, half_hops);
         }
         Self {
             lines: lines.iter().map(|line| BlockLine::new(line, count)).collect(),
