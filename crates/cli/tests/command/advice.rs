@@ -31,7 +31,7 @@ fn a_flag_beside_an_experiment_file_is_told_its_key() {
     let keys =
         [("--order=69", "order under [tone]"), ("--from=3", "from_s under [[load]]"), ("--mass=0.4", "mass_kg under")];
     for (flag, key) in keys {
-        refused_with(&["identify", "e.toml", flag], &["in the experiment file", key]);
+        refused_with(&["identify", "e.toml", flag], &["the experiment file", key]);
     }
     refused_with(&["identify", "--order", "69"], &["in an experiment file instead", "order under [tone]"]);
 }

@@ -320,7 +320,7 @@ fn a_damaged_part_is_heard_again() {
     let bytes = fs::read(&part).unwrap();
     fs::write(&part, &bytes[..bytes.len() / 2]).unwrap();
     let run = batch(&archive, &out, &[]).ends_with(1);
-    assert!(run.stderr.contains("hovertone removes it") && run.stderr.contains("run the same command again"));
+    assert!(run.stderr.contains("is damaged and is removed now") && run.stderr.contains("run the same command again"));
     batch(&archive, &out, &[]).ends_with(0);
     assert_eq!(before, results(&out));
 }

@@ -262,7 +262,7 @@ fn several_rotors_are_refused_and_one_is_not_assumed_in_silence() {
     write_bench(&sound, 21_000.0, 0.0);
     let assumed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0);
     assert!(
-        assumed.stderr.contains("the vehicle has 4 rotors, but the known speed is that of one"),
+        assumed.stderr.contains("the vehicle has 4 rotors, but the known speed belongs to one rotor"),
         "{}",
         assumed.stderr
     );

@@ -67,7 +67,7 @@ fn faults_of_a_file_are_told_in_its_own_words() {
     failed_with(&["vehicles", "--add", &experiment], &["this is an experiment file", "`hovertone identify`"]);
     for (vehicle, of_load, words) in [
         ("rotors = 6", "", ["leave rotors or preset out under [vehicle]", "rotors_running"]),
-        ("mass_kg = 413", "", ["413 kg (did you mean 0.413?), and", "weighs 0.413 kg"]),
+        ("mass_kg = 413", "", ["413 kg (did you mean 0.413?), but", "weighs 0.413 kg"]),
         ("", "from_s = 5.0\nto_s = 2.0", ["load \"a\": the end of the part", "write a later to_s"]),
     ] {
         let experiment = written(folder.path(), "e.toml", &load(vehicle, of_load));

@@ -94,7 +94,7 @@ fn what_has_no_meaning_is_refused_with_what_to_do() {
     write_noise(&sound, 1.0);
     let recording = hovertone(&["log", text(&sound)]).ends_with(1).stderr;
     assert!(recording.contains("this is a recording, but a log is needed"), "{recording}");
-    refused_with(&["log", &log, &log, "--signal", "table", "-o", "x.csv"], &["2 are given", "one log at a time"]);
+    refused_with(&["log", &log, &log, "--signal", "table", "-o", "x.csv"], &["2 logs are given", "one log at a time"]);
     refused_with(&["log", &log, "--signal", "table"], &["--signal needs a file for the signal too: -o FILE.csv"]);
 }
 

@@ -76,7 +76,7 @@ fn a_file_that_cannot_be_used_is_refused_with_what_to_do() {
     refused(&format!("position_std_m = 0.0\n{STANDS}"), &vehicle, &["position_std_m", "0.001"]);
     refused("[[microphone]]\nposition_m = [1.0, 2.0]\n", &vehicle, &["stands.toml:2"]);
     refused(&format!("{STANDS}[[microphone]]\nposition_m = [nan, 0, 0]\n"), &vehicle, &["microphone 4", "metres"]);
-    refused(STANDS, &["--vehicle", "ardrone", "--rotors", "3"], &["3 rotors turn, but 4 rotors have a place"]);
+    refused(STANDS, &["--vehicle", "ardrone", "--rotors", "3"], &["3 rotors turn, but 4 rotors have a position"]);
     let both = hovertone(&["speed", "a.wav", "--microphones", "b.toml", "--log", "c.csv"]).ends_with(2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
     let missing = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--microphones", "missing.toml"]).ends_with(1);

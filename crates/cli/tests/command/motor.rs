@@ -91,7 +91,7 @@ fn the_steps_are_drawn_with_their_curves() {
     assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
     refused_with(&["motor", &log, "--figure", text(&svg)], &["exists already"]);
     refused_with(&["motor", &log, "--figure", "steps.pdf"], &["must end with .png or .svg", "steps.svg"]);
-    refused_with(&["motor", &log, &log, "--figure", "x.svg"], &["2 are given", "one file at a time"]);
+    refused_with(&["motor", &log, &log, "--figure", "x.svg"], &["2 files are given", "one file at a time"]);
     refused_with(&["motor", &log, "--figure", &log, "--force"], &["must end with .png"]);
     let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n0.02,600\n");
     let nothing = folder.path().join("nothing.svg");
@@ -170,7 +170,7 @@ fn what_is_no_log_is_refused_and_the_others_are_read() {
     let run = hovertone(&["motor", "--json", &sound, &log]).ends_with(1);
     assert_eq!(run.json_lines().len(), 1);
     let other = written(folder.path(), "other.csv", "time_s,x_m\n0,1\n1,2\n");
-    refused_with(&["motor", &other], &["no column is a motor", "x_m"]);
+    refused_with(&["motor", &other], &["no header names a motor", "x_m"]);
 }
 
 #[test]
