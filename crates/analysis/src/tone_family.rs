@@ -134,7 +134,7 @@ impl fmt::Display for Meaning {
             Self::BladePassAndMesh { blades, gear } => {
                 write!(f, "{blades} blades, gear {}:{}", gear.pinion, gear.wheel)
             }
-            Self::GivenOrder => f.write_str("the given order"),
+            Self::GivenOrder => f.write_str("as given"),
         }
     }
 }

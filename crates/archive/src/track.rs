@@ -28,9 +28,10 @@ pub(crate) fn tracks_batch(record: Option<&SpeedRecord>) -> Result<RecordBatch, 
         .number(head("std_uncertainty_rev_s", "rev/s", "standard uncertainty of the speed"), |row| {
             Some(row.point.std_uncertainty_rev_s)
         })
-        .number(head("level_db", "dB", "level of the strongest harmonic, relative to a full-scale sine"), |row| {
-            Some(row.point.level_db)
-        })
+        .number(
+            head("level_db", "dB", "level of the strongest harmonic; 0 dB is the loudest sine that the file can hold"),
+            |row| Some(row.point.level_db),
+        )
         .batch()
 }
 

@@ -21,6 +21,7 @@ use hovertone_vehicle::{
     check_not_negative, check_positive, is_swamped,
 };
 use std::ops::RangeInclusive;
+use std::path::Path;
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
 /// Thrust constants of vehicles, N s²: from one propeller of 10 mm to eight of 3 m, at any thrust coefficient.
@@ -206,7 +207,7 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
         vehicle_mass_kg: mass_kg.map(|mass_kg| estimate(mass_kg, Some(mass_std_kg))),
         loudest_std_share: 0.0,
     };
-    check_stds(&scale)?;
+    check_stds(&scale, arguments.constant.as_deref())?;
     scale.check_vehicle(config.tone.speed_max).map_err(|error| match (vehicle, arguments.mass_kg) {
         (Some(vehicle), None) => results_contradict(vehicle, &error),
         _ => Failure::usage(error.to_string(), error.hint()),
@@ -334,8 +335,8 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses standard uncertainties that say that nothing was measured.
-fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
+/// Refuses standard uncertainties that say that nothing was measured: those of the flags, and those of the results in a file.
+fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Result<(), Failure> {
     let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
     let refuse = |name: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
@@ -346,6 +347,14 @@ fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
         Err(Failure::usage(what, hint))
     };
     match (scale.thrust_constant_total_n_s2, scale.vehicle_mass_kg) {
+        (constant, _) if let Some(path) = results.filter(|_| is_swamped(&constant)) => {
+            let percent = 200.0 * constant.std_uncertainty.unwrap_or(0.0) / constant.value;
+            let what =
+                format!("this constant is too uncertain to weigh with: its ± (k = 2) is {percent:.0} % of its value");
+            let hint =
+                "record each load five times, and run `hovertone identify` again: its warnings say what is wrong";
+            Err(Failure::Usage { what, hint: hint.to_owned(), path: Some(path.to_owned()) })
+        }
         (constant, _) if is_swamped(&constant) => {
             refuse("constant_std_n_s2", constant, "give it in N s², as the constant: one percent of 2.8e-5 is 2.8e-7")
         }

@@ -9,6 +9,7 @@ pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
     ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
     ("--harmonics 1", "harmonics = 1 under [tone] of the experiment file that -o DIR writes"),
     ("--mass-kg", "--mass"),
+    ("under the right [[load]]", "after the right --mass"),
 ]);
 
 /// Behind `spectrogram`, which prints no speed.

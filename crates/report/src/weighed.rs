@@ -83,9 +83,10 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
         if weighed.recording_count == 1 { "recording" } else { "recordings" },
         grams(weighed.mass_kg)
     );
-    if let Some(payload_kg) = weighed.payload_kg {
-        text += &format!("payload: {}\n", grams(payload_kg));
-    }
+    text += &match weighed.payload_kg {
+        Some(payload_kg) => format!("payload: {}\n", grams(payload_kg)),
+        None => "payload: not known, because the mass of the vehicle alone is not given (--mass-kg)\n".to_owned(),
+    };
     text
 }
 

@@ -53,7 +53,11 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
         };
         if let Some(toml) = file.filter(|file| file.ends_with(".toml")) {
             let what = format!("{toml} comes after --mass, so it counts as a recording");
-            return Err(Failure::usage(what, "an experiment file has its own masses: leave --mass out"));
+            let hint = match Path::new(toml).exists() {
+                true => "an experiment file has its own masses: leave --mass out".to_owned(),
+                false => format!("to write a new experiment file, name it with `hovertone init … -o {toml}`"),
+            };
+            return Err(Failure::usage(what, hint));
         }
         let recordings = file.filter(|file| !file.is_empty()).map(str::to_owned).into_iter().collect();
         put_load(&mut loads, LoadDraft { mass_kg, recordings });

@@ -118,12 +118,19 @@ impl Draft {
             || vehicle.is_some_and(|vehicle| vehicle.tone_order().is_some());
         let has_rotors = self.rotors.is_some() || vehicle.is_some();
         let needs: [(bool, &'static str); 4] = [
-            (vehicle.is_some() || has_tone, "--vehicle NAME, or --blades N"),
+            (
+                vehicle.is_some() || has_tone,
+                if has_rotors {
+                    "--vehicle NAME, or --blades N"
+                } else {
+                    "--vehicle NAME, or both --blades N and --rotors N"
+                },
+            ),
             (
                 vehicle.is_none() || has_tone,
                 "--blades N (hovertone does not know the number of blades of this vehicle)",
             ),
-            (vehicle.is_some() || has_rotors, "--rotors N"),
+            (has_rotors || !has_tone, "--rotors N"),
             (!self.loads.is_empty(), "--mass KG=FILES, once for each load"),
         ];
         needs.into_iter().filter(|(has, _)| !has).map(|(_, flag)| flag).collect()

@@ -108,7 +108,10 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
         said.iter().for_each(|said| assert!(run.stderr.contains(said), "{words:?} without {said}:\n{}", run.stderr));
     };
     refuses(&["identify"], &["identify needs an experiment file"]);
-    refuses(&["identify", "--mass", "0.4=a.wav"], &["--vehicle NAME, or --blades N", "hovertone init"]);
+    refuses(
+        &["identify", "--mass", "0.4=a.wav"],
+        &["--vehicle NAME, or both --blades N and --rotors N", "hovertone init"],
+    );
     refuses(&["identify", "--mass", "0.4=a.wav", "--blades", "2"], &["--rotors N"]);
     refuses(&["identify", "--mass", "0.4=a.wav", "--vehicle", "iris"], &["--blades N"]);
     refuses(&["identify", "--mass", "a.wav", "--vehicle", "ardrone"], &["the mass of this recording is missing"]);
