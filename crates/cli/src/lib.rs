@@ -51,6 +51,7 @@ mod recording;
 mod recording_files;
 mod report_folder;
 mod rights;
+mod scale_uncertainty;
 mod see_help;
 #[cfg(feature = "page")]
 mod serve;

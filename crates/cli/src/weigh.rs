@@ -9,6 +9,7 @@ use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
+use crate::scale_uncertainty::check_stds;
 use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
@@ -18,10 +19,9 @@ use hovertone_exchange::{HeardTone, IdentifiedRotor};
 use hovertone_report::{Notice, SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
     BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, Vehicle,
-    check_not_negative, check_positive, is_swamped,
+    check_not_negative, check_positive,
 };
 use std::ops::RangeInclusive;
-use std::path::Path;
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
 /// Thrust constants of vehicles, N s²: from one propeller of 10 mm to eight of 3 m, at any thrust coefficient.
@@ -333,36 +333,6 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
         value.map_or(Ok(()), |value| check_not_negative(name, value))?;
     }
     Ok(())
-}
-
-/// Refuses standard uncertainties that say that nothing was measured: those of the flags, and those of the results in a file.
-fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Result<(), Failure> {
-    let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
-    let refuse = |name: &str, estimate: Estimate, hint: &str| {
-        let std = estimate.std_uncertainty.unwrap_or(0.0);
-        let what = format!(
-            "{name} = {std} is too large: two times this uncertainty must be less than the number itself, {}",
-            estimate.value
-        );
-        Err(Failure::usage(what, hint))
-    };
-    match (scale.thrust_constant_total_n_s2, scale.vehicle_mass_kg) {
-        (constant, _) if let Some(path) = results.filter(|_| is_swamped(&constant)) => {
-            let percent = 200.0 * constant.std_uncertainty.unwrap_or(0.0) / constant.value;
-            let what =
-                format!("this constant is too uncertain to weigh with: its ± (k = 2) is {percent:.0} % of its value");
-            let hint =
-                "record each load five times, and run `hovertone identify` again: its warnings say what is wrong";
-            Err(Failure::Usage { what, hint: hint.to_owned(), path: Some(path.to_owned()) })
-        }
-        (constant, _) if is_swamped(&constant) => {
-            refuse("constant_std_n_s2", constant, "give it in N s², as the constant: one percent of 2.8e-5 is 2.8e-7")
-        }
-        (_, Some(mass)) if is_swamped(&mass) => {
-            refuse("mass_std_kg", mass, "give it in kilograms: for 0.5 g write 0.0005")
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The tone of the arguments, else the tone behind the results with the same settings.

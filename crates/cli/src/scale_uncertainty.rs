@@ -1,0 +1,35 @@
+//! Whether a constant and a mass are known well enough to weigh with.
+
+use crate::failure::Failure;
+use hovertone::thrust::AcousticScale;
+use hovertone_vehicle::{Estimate, is_swamped};
+use std::path::Path;
+
+/// Refuses standard uncertainties that say that nothing was measured: those of the flags, and those of the results in a file.
+pub(crate) fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Result<(), Failure> {
+    let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
+    let refuse = |name: &str, estimate: Estimate, hint: &str| {
+        let std = estimate.std_uncertainty.unwrap_or(0.0);
+        let what = format!(
+            "{name} = {std} is too large: two times this uncertainty must be less than the number itself, {}",
+            estimate.value
+        );
+        Err(Failure::usage(what, hint))
+    };
+    match (scale.thrust_constant_total_n_s2, scale.vehicle_mass_kg) {
+        (constant, _) if let Some(path) = results.filter(|_| is_swamped(&constant)) => {
+            let percent = 200.0 * constant.std_uncertainty.unwrap_or(0.0) / constant.value;
+            let what =
+                format!("this constant is too uncertain to weigh with: its ± (k = 2) is {percent:.0} % of its value");
+            let hint = "record each load five times, and run `hovertone identify` again: its warnings name the fault";
+            Err(Failure::Usage { what, hint: hint.to_owned(), path: Some(path.to_owned()) })
+        }
+        (constant, _) if is_swamped(&constant) => {
+            refuse("constant_std_n_s2", constant, "give it in N s², as the constant: one percent of 2.8e-5 is 2.8e-7")
+        }
+        (_, Some(mass)) if is_swamped(&mass) => {
+            refuse("mass_std_kg", mass, "give it in kilograms: for 0.5 g write 0.0005")
+        }
+        _ => Ok(()),
+    }
+}
