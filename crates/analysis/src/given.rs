@@ -15,6 +15,8 @@ pub struct GivenFacts {
     pub blades: bool,
     /// The gear.
     pub gear: bool,
+    /// The order of the tone alone: of blades or of a gear.
+    pub order: bool,
     /// The diameter of the propellers.
     pub diameter: bool,
     /// The mass.
@@ -32,6 +34,7 @@ impl GivenFacts {
             (self.vehicle, "the vehicle"),
             (self.blades && !self.vehicle, "the blades"),
             (self.gear && !self.vehicle, "the gear"),
+            (self.order && !self.vehicle, "the order of the tone"),
             (self.diameter && !self.vehicle, "the diameter"),
             (self.mass && !self.vehicle, "the mass"),
             (self.band, "the band"),
@@ -50,9 +53,11 @@ impl GivenFacts {
             (true, ..) => "the vehicle",
             (false, true, true) => "the blades and the gear",
             (false, false, true) => "the gear",
-            (false, _, false) => "the number of blades",
+            (false, ..) if self.order => "the order of the tone (blades or gear)",
+            (false, ..) => "the number of blades",
         };
-        let of_tone_or_vehicle = if self.vehicle || !self.gear { "the vehicle and its blades" } else { of_tone };
+        let of_tone_or_vehicle =
+            if self.vehicle || !(self.gear || self.order) { "the vehicle and its blades" } else { of_tone };
         advice.replace("the number of blades", of_tone).replace("the vehicle and its blades", of_tone_or_vehicle)
     }
 
@@ -104,6 +109,7 @@ mod tests {
             vehicle: true,
             blades: true,
             gear: true,
+            order: true,
             diameter: true,
             mass: true,
             band: true,
@@ -126,6 +132,9 @@ mod tests {
         assert!(hints(nothing)[0].ends_with("check the number of blades"), "{:?}", hints(nothing));
         let geared = GivenFacts { blades: true, gear: true, ..nothing };
         assert!(hints(geared).iter().all(|hint| hint.contains("check the blades and the gear")), "{:?}", hints(geared));
+        let by_order = GivenFacts { order: true, ..nothing };
+        assert_eq!(by_order.in_words("and"), "the order of the tone");
+        assert!(hints(by_order).iter().all(|hint| hint.contains("(blades or gear)")), "{:?}", hints(by_order));
         let vehicle = GivenFacts { vehicle: true, ..geared };
         assert!(hints(vehicle).iter().all(|hint| hint.contains("check the vehicle")), "{:?}", hints(vehicle));
     }

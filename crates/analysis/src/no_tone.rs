@@ -86,6 +86,10 @@ impl NoTone {
                 "no rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it; check {}, or move the microphone nearer",
                 given.in_words("and")
             ),
+            Self::NoFrame { window_s, hover_s } if given.window => format!(
+                "in {hover_s:.1} s of hover, the tone is never clear in frames of {window_s} s; leave --window-s out: hovertone then chooses a \
+                 length that fits the tone"
+            ),
             other => other.to_string(),
         }
     }

@@ -1,7 +1,7 @@
 //! `hovertone compare`: models of simulators against the measured constant.
 
 use crate::args::CompareArguments;
-use crate::export::{identified, say_doubts};
+use crate::export::{ending_of, identified, say_doubts};
 use crate::failure::{Ending, Failure};
 use crate::model_file::read_model;
 use crate::terminal::Terminal;
@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Resu
     } else {
         terminal.text(&models_text(&models, &heard, terminal.fold_width()))?;
     }
-    Ok(Ending::Done)
+    Ok(ending_of(&heard))
 }
 
 fn model_of(path: &Path) -> Result<ComparedModel, Failure> {

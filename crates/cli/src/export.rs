@@ -2,6 +2,7 @@
 
 use crate::args::ExportArguments;
 use crate::failure::{Ending, Failure};
+use crate::identify::names_loads;
 use crate::inputs::{is_stdin, read_text};
 use crate::model_file::model_failure;
 use crate::outputs::{Outputs, written};
@@ -52,7 +53,12 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
         }
         None => terminal.data(&text)?,
     }
-    Ok(Ending::Done)
+    Ok(ending_of(&rotor))
+}
+
+/// Lines with a constant that must not be used are no complete answer.
+pub(crate) fn ending_of(rotor: &IdentifiedRotor) -> Ending {
+    if rotor.forbids_use { Ending::Incomplete } else { Ending::Done }
 }
 
 /// Why a given fact changes nothing.
@@ -138,7 +144,7 @@ fn change(
     if updated.changes.is_empty() && arguments.output.is_none() {
         terminal
             .say(&format!("nothing to change: {} has this constant already", printable(&model.display().to_string())));
-        return Ok(Ending::Done);
+        return Ok(ending_of(rotor));
     }
     match &arguments.output {
         Some(output) => {
@@ -170,7 +176,7 @@ fn change(
             "",
         );
     }
-    Ok(Ending::Done)
+    Ok(ending_of(rotor))
 }
 
 /// That comments still have the old number; `None` without such lines.
@@ -286,7 +292,7 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             hint: "give results.json here; `hovertone compare` takes the models after it".to_owned(),
             path: Some(path.to_owned()),
         },
-        ResultsError::NotJson(_) if text.lines().any(|line| line.trim() == "[[load]]") => Failure::failed(
+        ResultsError::NotJson(_) if names_loads(&text) => Failure::failed(
             "this is an experiment file, but results.json is needed here",
             "run `hovertone identify EXPERIMENT.toml -o DIR`, then give DIR/results.json",
             path,

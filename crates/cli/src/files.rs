@@ -93,6 +93,12 @@ pub(crate) fn is_pattern(name: &str) -> bool {
     name.contains(['*', '?', '['])
 }
 
+/// The folder of a pattern or a name, where there is no such folder.
+pub(crate) fn missing_folder(pattern: &Path) -> Option<&Path> {
+    let folder = pattern.parent().filter(|folder| !folder.as_os_str().is_empty())?;
+    (!folder.exists() && !is_pattern(&folder.to_string_lossy())).then_some(folder)
+}
+
 /// SHA-256 of a file in hexadecimal, read in pieces.
 pub(crate) fn sha256_of_file(path: &Path) -> io::Result<String> {
     File::open(path).and_then(sha256_of)

@@ -1,6 +1,6 @@
 //! Recordings in a folder, known by their endings: what `init` offers, and what a message about a missing file names.
 
-use crate::files::{files_of, home_expanded, is_pattern};
+use crate::files::{files_of, home_expanded, is_pattern, missing_folder};
 use crate::inputs::is_stdin;
 use std::collections::BTreeMap;
 use std::fs;
@@ -82,7 +82,14 @@ fn folder_in_words(folder: &Path) -> String {
 /// What to say of a pattern where one recording is needed.
 fn pattern_in_words(pattern: &Path) -> String {
     match files_of(pattern).iter().filter(|file| file.is_file()).collect::<Vec<_>>().as_slice() {
-        [] => "no file matches this pattern; check the folder and the ending in the pattern, such as *.wav".to_owned(),
+        [] => match missing_folder(pattern) {
+            Some(folder) => {
+                format!("no file matches this pattern: there is no folder {}; correct its name", folder.display())
+            }
+            None => {
+                "no file matches this pattern; check the folder and the ending in the pattern, such as *.wav".to_owned()
+            }
+        },
         [first, ..] => {
             format!(
                 "this is a pattern, but this command hears one recording at a time; give one recording, such as {}",

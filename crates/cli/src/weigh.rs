@@ -24,6 +24,7 @@ use hovertone_vehicle::{
 use std::ops::RangeInclusive;
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
+const CHECK_MODEL: &str = "check the name after --vehicle, the thrust constant (of the whole vehicle, in N/(rad/s)²), and the blades or the gear; if all are right, give the mass of the vehicle with --mass-kg";
 /// Thrust constants of vehicles, N s²: from one propeller of 10 mm to eight of 3 m, at any thrust coefficient.
 const CONSTANT_N_S2: RangeInclusive<f64> = 1e-11..=10.0;
 /// Standard uncertainty of a kitchen scale that shows whole grams.
@@ -46,6 +47,7 @@ const NO_MASS: &str = "no mass: no speed was heard\n";
 
 /// What stands above a mass that no one should use.
 const DOUBTFUL_MASS: &str = "do not use this mass: the warnings say that the sound does not fit the rotors with which the constant was measured\n";
+const DOUBTFUL_CONSTANT: &str = "do not use this mass: the warnings say not to use the constant\n";
 
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -71,12 +73,13 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_different_loads(&scale, &hovers, &names)?;
     let weighed = scale.weigh(&hovers);
     if let Some(weighed) = &weighed {
-        let checked =
-            weighed.check().and_then(|()| plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
-        checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
+        weighed.check().map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
+        let of_model = plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg));
+        of_model.map_err(|error| Failure::usage(error.to_string(), CHECK_MODEL))?;
     }
     let foreign = tone_of_constant.and_then(|heard| foreign_speed(&records, heard, &arguments.tone));
-    let is_doubtful =
+    let is_constant_doubtful = results.as_ref().is_some_and(|rotor| rotor.forbids_use);
+    let is_sound_doubtful =
         foreign.is_some() || records.iter().any(|record| record.contradiction().is_some() && record.speed().is_some());
     let of_mass = weighed.iter().filter_map(WeighedHover::warning).map(|warning| Notice::from(&warning));
     let warnings: Vec<Notice> = foreign.into_iter().chain(of_mass).collect();
@@ -87,8 +90,15 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         terminal.data(&document)?;
     } else {
         let text = weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), weighed_text);
-        terminal.text(&format!("{}{text}", if is_doubtful { DOUBTFUL_MASS } else { "" }))?;
+        let doubt = match (is_sound_doubtful, is_constant_doubtful) {
+            _ if weighed.is_none() => "",
+            (true, _) => DOUBTFUL_MASS,
+            (false, true) => DOUBTFUL_CONSTANT,
+            (false, false) => "",
+        };
+        terminal.text(&format!("{doubt}{text}"))?;
     }
+    let is_doubtful = is_sound_doubtful || is_constant_doubtful;
     Ok(ending_of(&records).max(if is_doubtful { Ending::Incomplete } else { Ending::Done }))
 }
 

@@ -8,6 +8,7 @@ pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
     ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of the experiment file that -o DIR writes"),
     ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
     ("--harmonics 1", "harmonics = 1 under [tone] of the experiment file that -o DIR writes"),
+    (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
     ("--mass-kg", "--mass"),
     ("under the right [[load]]", "after the right --mass"),
 ]);
@@ -110,6 +111,6 @@ mod tests {
             assert!(!worded.contains("--"), "{worded}");
         }
         let blades = Wording::IN_EXPERIMENT.of("give --blades 3 alone, in place of the vehicle");
-        assert_eq!(blades, "under [vehicle] write blades = 3 alone, in place of the vehicle");
+        assert_eq!(blades, "under [vehicle] write blades = 3 and rotors = N, in place of preset");
     }
 }

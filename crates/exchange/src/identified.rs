@@ -40,6 +40,8 @@ pub struct IdentifiedRotor {
     pub method: Option<String>,
     /// Standard deviation of the speed from trial to trial, as a share.
     pub trial_std_share: Option<f64>,
+    /// Whether a warning says not to use the constant.
+    pub forbids_use: bool,
     /// Warnings about the constant.
     pub doubts: Vec<Doubt>,
     /// Source of the numbers, for a comment.
@@ -235,6 +237,8 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
         tone: results.pointer("/settings/experiment/config/tone").and_then(|tone| HeardTone::deserialize(tone).ok()),
         method: text("/method").map(str::to_owned),
         trial_std_share: trial_std_share(&results),
+        // older results have no such field
+        forbids_use: results.get("forbids_use").and_then(Value::as_bool).unwrap_or(false),
         doubts: doubts(&results),
         origin: format!(
             "hovertone {} from {file} (sha256 {}){}",

@@ -41,6 +41,7 @@ fn rotor() -> IdentifiedRotor {
         air_density_kg_m3: Some(1.17),
         torque_constant_n_m_s2: Some(2.1308e-7),
         hover_command: None,
+        forbids_use: false,
         doubts: Vec::new(),
         origin: "a test".to_owned(),
     }

@@ -28,10 +28,12 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
         for (index, rotor) in record.rotors().iter().enumerate() {
             let name = name_of_rotor(record, index);
             let Some(condition) = &rotor.condition else {
-                table.push_words(
-                    name,
-                    "not known: the number of blades is not given, or the tone of these blades could not be separated from another rotor".to_owned(),
-                );
+                let why = if record.given_facts().blades || record.given_facts().vehicle {
+                    "not known: another rotor sounds too near to the tone of its blades"
+                } else {
+                    "not known: give the number of blades with --blades N"
+                };
+                table.push_words(name, why.to_owned());
                 continue;
             };
             let between = condition.loudest_between();

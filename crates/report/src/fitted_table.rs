@@ -42,7 +42,6 @@ pub struct FittedTable {
     /// Torque of one rotor over its squared speed, where the table has torques.
     pub torque_constant_per_rotor_n_m_s2: Option<f64>,
     /// Whether a warning says not to use the constant.
-    #[serde(skip)]
     pub forbids_use: bool,
     /// Notices about rows that were left out or turned round, and warnings about the fit.
     pub notices: Vec<Notice>,

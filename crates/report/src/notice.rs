@@ -24,6 +24,8 @@ pub enum NoticeKind {
     Other,
     /// The sound contradicts the facts that were given.
     AnotherRotorFits,
+    /// No multirotor does what the facts and the speed mean together.
+    Impossible,
 }
 
 impl Notice {

@@ -75,7 +75,13 @@ pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
         _ => format!(", {} for the whole vehicle", quoted(total)),
     };
     let share = total.std_uncertainty.map(|std| 100.0 * COVERAGE_FACTOR * std / total.value);
-    let covers = if table.has_one_trial() { WITHOUT_FLIGHTS } else { ": about 95 of 100 true values lie within it" };
+    let covers = if table.forbids_use() {
+        ""
+    } else if table.has_one_trial() {
+        WITHOUT_FLIGHTS
+    } else {
+        ": about 95 of 100 true values lie within it"
+    };
     let meaning = share.map_or("; ± is not known".to_owned(), |percent| {
         format!("; ± is {percent:.2} % (k = {COVERAGE_FACTOR}{covers})")
     });

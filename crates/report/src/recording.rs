@@ -1,6 +1,6 @@
 //! The record of one recording: its facts and its result.
 
-use crate::notice::Notice;
+use crate::notice::{Notice, NoticeKind};
 use crate::number::significant;
 use crate::wording::Wording;
 use hovertone_analysis::{
@@ -147,7 +147,8 @@ impl SpeedRecord {
             () if no_tone_but_another_rotor || has(&|warning| matches!(warning, Warning::FitsElsewhere(_))) => {
                 Some(Contradicted::ByAnotherRotor)
             }
-            () if has(&Warning::is_hardly_heard) => Some(Contradicted::HardlyHeard),
+            // in frames of a given length, a clear tone can have gaps
+            () if has(&Warning::is_hardly_heard) && !self.given_facts().window => Some(Contradicted::HardlyHeard),
             () => None,
         }
     }
@@ -333,10 +334,12 @@ impl SpeedRecord {
             has(&self.settings) || of_search.is_some_and(has)
         };
         let (is_order_given, is_mesh) = (self.found.is_none(), self.order.lines_per_turn() > BLADES_MAX);
+        let are_blades_given = is_given("/tone/blades") || is_given("/known/blade_count");
         GivenFacts {
             vehicle: is_given("/known/shaft_speed"),
-            blades: is_given("/tone/blades") || is_given("/known/blade_count") || is_order_given && !is_mesh,
+            blades: are_blades_given,
             gear: is_order_given && is_mesh,
+            order: is_order_given && !is_mesh && !are_blades_given,
             diameter: is_given("/known/diameter_m"),
             mass: is_given("/known/mass_kg"),
             band: is_given("/tone/band_hz"),
@@ -376,11 +379,12 @@ impl SpeedRecord {
     }
 
     /// Whether a part of the requested result is missing or doubtful: no rotor tone, an unsettled order, a sound that contradicts the given
-    /// rotors, missing labels, or only the beginning of the sound.
+    /// rotors or that no multirotor can make, missing labels, or only the beginning of the sound.
     pub fn is_incomplete(&self) -> bool {
         let has_labels = self.labels.as_ref().is_none_or(|labels| labels.not_told.is_none());
         self.speed().is_none()
             || self.contradiction().is_some()
+            || self.notices.iter().any(|notice| notice.kind == NoticeKind::Impossible)
             || !has_labels
             || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
     }

@@ -97,6 +97,7 @@ struct Results<'a> {
     #[serde(serialize_with = "by_method")]
     methods: &'a [ThrustTable],
     loads: Vec<Load<'a>>,
+    forbids_use: bool,
     warnings: Vec<Notice>,
     inputs: Vec<Input<'a>>,
     settings: Settings<'a>,
@@ -231,6 +232,7 @@ pub fn results_json(identification: &Identification<'_>) -> Result<String, serde
         vehicle_model: reported.and_then(|table| experiment.model?.against(table)),
         methods: tables,
         loads: reported.map(loads_of).unwrap_or_default(),
+        forbids_use: reported.is_some_and(ThrustTable::forbids_use),
         warnings: reported.map(|table| table.warnings.iter().map(Notice::from).collect()).unwrap_or_default(),
         inputs: identification.inputs.iter().map(input_of).collect(),
         settings: Settings {

@@ -32,6 +32,7 @@ impl Wording {
                 rotors_running = N under [[load]])",
             ),
             ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
+            (" alone, in place of the vehicle", " and rotors = N, in place of preset"),
             ("give --blades N", "write blades = N under [vehicle]"),
             ("give --blades ", "under [vehicle] write blades = "),
         ],

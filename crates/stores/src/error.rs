@@ -22,7 +22,7 @@ pub enum StoreError {
     #[error("the store refuses access: it asks for credentials, and the environment variables have none or wrong ones")]
     Refused,
     /// Variables of the environment that are missing or have no meaning.
-    #[error("the environment variables of the store cannot be used: {0}")]
+    #[error("an environment variable of the store is missing, or has a wrong value: {0}")]
     Settings(String),
     /// A server that gives whole files only.
     #[error("the server sends whole files only, but hovertone reads recordings in parts")]
@@ -59,7 +59,7 @@ impl StoreError {
             }
             Self::NotFound => "check the name",
             Self::Refused | Self::Settings(_) => {
-                "set the environment variables of the store (docs/batch.md lists them)"
+                "docs/batch.md lists the environment variables of each store, such as AZURE_STORAGE_ACCOUNT_NAME or AWS_REGION: set them"
             }
             Self::WholeFilesOnly => "copy the recordings to a disk",
             Self::ListsNothing => "give the address of a recording, or of a list of recordings whose name ends in .txt",

@@ -45,6 +45,11 @@ pub struct ThrustTable {
 }
 
 impl ThrustTable {
+    /// Whether a warning says not to use the constant.
+    pub fn forbids_use(&self) -> bool {
+        self.warnings.iter().any(ThrustWarning::forbids_use)
+    }
+
     /// Name of the method for people. Rotors that are heard as a group are called that.
     pub fn title(&self) -> &'static str {
         match self.method {

@@ -168,7 +168,9 @@ fn notice_of_thrust(record: &SpeedRecord, config: &Config) -> Option<Notice> {
 /// That the blade tips would be too fast at the heard speed.
 fn notice_of_tips(record: &SpeedRecord, diameter_m: Option<f64>) -> Option<Notice> {
     let contradiction = check_tips(diameter_m?, record.speed()?.speed).err()?;
-    Some(Notice::new(contradiction.to_string(), contradiction.hint()))
+    let given = record.given_facts();
+    let hint = if given.vehicle { format!("check {}", given.in_words("and")) } else { contradiction.hint() };
+    Some(Notice::new(contradiction.to_string(), hint).of_kind(NoticeKind::Impossible))
 }
 
 /// The record of a recording that could not be heard: its reason stands in place of an answer.

@@ -57,7 +57,9 @@ impl Identified {
         check_tips_of(&experiment, &inputs)?;
         let has_rotors = inputs.iter().filter_map(|input| input.record.speed_by(Method::Separated)).any(is_separated);
         let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
-        let foreign = vehicle_does_not_fit(&inputs);
+        let has_speed = inputs.iter().any(|input| input.record.speed().is_some());
+        // without a constant, the reasons of the recordings say it
+        let foreign = vehicle_does_not_fit(&inputs).filter(|_| has_speed);
         let tables = Method::ALL
             .into_iter()
             .filter(|&method| method != Method::Separated || has_rotors)
@@ -173,7 +175,7 @@ impl Identified {
                     count => format!("; the speeds in {} do not fit the sound", counted(count, "log")),
                 };
                 let verdict = format!("verdict: {}{heard}{failed}", printable(Verdict::of(table).words()));
-                match self.warnings().iter().any(ThrustWarning::forbids_use) {
+                match table.forbids_use() {
                     true => format!("{verdict}\ndo not use this constant: {constants}\n"),
                     false => format!("{constants}\n{verdict}\n"),
                 }

@@ -1,7 +1,7 @@
 //! The recordings of an archive, from what was typed.
 
 use crate::failure::Failure;
-use crate::files::{files_of, home_expanded, is_pattern, sha256_of_bytes};
+use crate::files::{files_of, home_expanded, is_pattern, missing_folder, sha256_of_bytes};
 use crate::inputs::{is_stdin, read_text};
 use crate::recording_files::recordings_below;
 use crate::stored::{self, StoredRecording, is_address};
@@ -112,6 +112,9 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Recordings, Failure> {
                     "there are no recordings at this address",
                     "hovertone finds recordings by the endings of their names, such as .wav or .mp4",
                 ),
+                pattern if missing_folder(pattern).is_some() => {
+                    ("there is no such folder: no file matches this pattern", "correct the name of the folder")
+                }
                 _ => ("no file matches this pattern", "check the folder and the ending in the pattern, such as *.wav"),
             };
             return Err(Failure::failed(what, hint, input));

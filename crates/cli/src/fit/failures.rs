@@ -6,6 +6,8 @@ use hovertone::thrust::{ForcePoint, NoScatter};
 use hovertone_exchange::{CsvError, StandGroup, StandTable, TableError};
 use std::path::Path;
 
+/// Weight of the heaviest vehicles that hovertone takes, 10 000 kg.
+const FORCE_N_MAX: f64 = 1e5;
 /// Smallest and largest standard uncertainty over its quantity that a fit can use: beyond them, its weights are lost in rounding.
 const STD_SHARES: std::ops::RangeInclusive<f64> = 1e-12..=1e6;
 
@@ -73,6 +75,19 @@ pub(super) fn refuse_absurd_std(points: &[ForcePoint], table: &StandTable, path:
     Err(Failure::Usage {
         what: format!("{name}: the stated uncertainty is too {how} for a fit: it is {share:.0e} times the {quantity}"),
         hint: format!("correct {columns} in this row, or remove this column"),
+        path: Some(path.to_owned()),
+    })
+}
+
+/// Refuses a force that is larger than that of any vehicle.
+pub(super) fn refuse_absurd_force(points: &[ForcePoint], path: &Path) -> Result<(), Failure> {
+    let Some(point) = points.iter().find(|point| point.force_n > FORCE_N_MAX) else { return Ok(()) };
+    Err(Failure::Usage {
+        what: format!(
+            "{}: the force is {:.1e} N, but it must be {FORCE_N_MAX:.0e} N or less",
+            point.name, point.force_n
+        ),
+        hint: "correct the cell or its unit, or remove the row".to_owned(),
         path: Some(path.to_owned()),
     })
 }

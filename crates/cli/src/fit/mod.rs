@@ -10,7 +10,7 @@ use crate::files::sha256_of_bytes;
 use crate::inputs::{is_no_text, read_bytes};
 use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
-use failures::{refuse_absurd_std, table_failure, unfitted, without_scatter};
+use failures::{refuse_absurd_force, refuse_absurd_std, table_failure, unfitted, without_scatter};
 use hovertone::thrust::{
     ForcePoint, Gravity, PointNoise, SquareLawFit, ThrustCoefficients, ThrustWarning, TorqueReading, figure_of_merit,
     is_plausible_merit, row_drifts, square_law_fit, torque_constant_n_m_s2, warnings_of_points,
@@ -25,11 +25,17 @@ use std::path::Path;
 /// The meaning of the arguments.
 struct Plan {
     gravity: Gravity,
-    rotor_count: u32,
-    /// Whether the user says so; else it is one.
-    is_count_given: bool,
+    /// The number of rotors, where the user gives it.
+    given_rotors: Option<u32>,
     diameter_m: Option<f64>,
     density_kg_m3: Option<f64>,
+}
+
+impl Plan {
+    /// The number of rotors that make the forces: as given, or as the table names it, or else one.
+    fn rotors_of(&self, table: &StandTable) -> u32 {
+        self.given_rotors.or(table.rotor_count).unwrap_or(1)
+    }
 }
 
 /// Fits all tables, or plans a campaign.
@@ -45,8 +51,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
     }
     let plan = Plan {
         gravity,
-        rotor_count: arguments.rotors.unwrap_or(1),
-        is_count_given: arguments.rotors.is_some(),
+        given_rotors: arguments.rotors,
         diameter_m: arguments.air.diameter_m,
         density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
     };
@@ -123,6 +128,7 @@ fn fitted_table(
 ) -> Result<FittedTable, Failure> {
     check_tips_of(group, path, plan)?;
     let points: Vec<ForcePoint> = group.rows.iter().map(|row| point_of(row, plan)).collect();
+    refuse_absurd_force(&points, path)?;
     refuse_absurd_std(&points, table, path)?;
     let noise = if is_stated(group) { PointNoise::Stated } else { PointNoise::FromResiduals };
     let fit = square_law_fit(&points, noise).map_err(|error| unfitted(&error, &points, path))?;
@@ -132,10 +138,11 @@ fn fitted_table(
     let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
     let is_weighed = group.rows.iter().all(is_mass);
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
-    let per_rotor = total.scaled(1.0 / f64::from(plan.rotor_count));
+    let rotor_count = plan.rotors_of(table);
+    let per_rotor = total.scaled(1.0 / f64::from(rotor_count));
     let air = plan.diameter_m.zip(plan.density_kg_m3);
     // torques of several rotors add up with their directions, which are not in the table
-    let has_torque = plan.rotor_count == 1;
+    let has_torque = rotor_count == 1;
     let torque = |row: &StandRow| {
         Some(TorqueReading { speed: RotorSpeed::from_rad_s(row.speed_rad_s), torque_n_m: row.torque_n_m? })
     };
@@ -143,7 +150,7 @@ fn fitted_table(
     let coefficients =
         air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
     let mut warnings = warnings_of_rows(group, &points, &fit, is_weighed.then_some(plan.gravity.m_s2));
-    let figure_of_merit = merit_of(group, &points, plan);
+    let figure_of_merit = merit_of(group, &points, rotor_count, plan);
     warnings.extend(figure_of_merit.filter(|merit| !is_plausible_merit(*merit)).map(|figure_of_merit| {
         ThrustWarning::ImplausibleFigureOfMerit { name: "at the largest thrust".to_owned(), figure_of_merit }
     }));
@@ -155,7 +162,7 @@ fn fitted_table(
     let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m));
     let too_strong = of_any_air()
         .or_else(|| too_large_notice(per_rotor))
-        .or_else(|| too_strong_notice(group, per_rotor, plan.is_count_given))
+        .or_else(|| too_strong_notice(group, per_rotor, plan.given_rotors.is_some()))
         .filter(|_| coefficients.is_none());
     let std_columns = if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] };
     let of_table = table.notes.iter().map(|note| Notice::new(note, hint_of_note(note)));
@@ -169,7 +176,7 @@ fn fitted_table(
         row_count: points.len(),
         thrust_constant_total_n_s2: total,
         thrust_constant_per_rotor_n_s2: per_rotor,
-        rotor_count: plan.rotor_count,
+        rotor_count,
         thrust_coefficients: coefficients,
         propeller_diameter_m: plan.diameter_m,
         figure_of_merit,
@@ -239,8 +246,8 @@ fn point_of(row: &StandRow, plan: &Plan) -> ForcePoint {
 }
 
 /// Figure of merit of one rotor at the largest thrust, where an offset of the stand matters least.
-fn merit_of(group: &StandGroup, points: &[ForcePoint], plan: &Plan) -> Option<f64> {
-    let rotors = f64::from(plan.rotor_count);
+fn merit_of(group: &StandGroup, points: &[ForcePoint], rotor_count: u32, plan: &Plan) -> Option<f64> {
+    let rotors = f64::from(rotor_count);
     let rows = group.rows.iter().zip(points).filter_map(|(row, point)| Some((point.force_n, row.power_w?)));
     let (thrust_n, power_w) = rows.max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(figure_of_merit(thrust_n / rotors, power_w / rotors, plan.diameter_m?, plan.density_kg_m3?))

@@ -1,7 +1,7 @@
 //! Notices about a fitted table: what was done with its columns, and numbers that no propeller has.
 
 use super::Plan;
-use hovertone::thrust::{ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach};
+use hovertone::thrust::{LoadRange, ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach};
 use hovertone_exchange::{StandGroup, StandTable};
 use hovertone_report::{Notice, fixed, significant};
 use hovertone_vehicle::{AIR_KG_M3, Estimate, RotorSpeed, THRUST_COEFFICIENT, TIP_MACH_MAX};
@@ -22,6 +22,12 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
             | ThrustWarning::RowsDoNotFit { .. }
     );
     match stated {
+        _ if matches!(warning, ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. })) => {
+            Notice::new(
+                warning.to_string(),
+                "check the speeds, the forces and the uncertainties that you stated, and measure more rows",
+            )
+        }
         columns if is_of_rows && !columns.is_empty() => {
             Notice::new(warning.to_string(), format!("{}; or {} is too small", warning.hint(), columns.join(" or ")))
         }
@@ -40,24 +46,20 @@ pub(super) fn hint_of_note(note: &str) -> &'static str {
     }
 }
 
-/// A notice where several rotors seem to make the forces, which count as the forces of one.
+/// A notice where several rotors make the forces, or seem to, and the user does not say so.
 pub(super) fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<Notice> {
-    let several = table.rotor_count.filter(|count| *count > 1);
-    let text = match several {
-        _ if plan.is_count_given => return None,
-        Some(count) => {
-            format!("the table names {count} rotors, but its forces are used as the forces of one rotor")
-        }
-        None if is_weighed => "hovertone uses each mass as if one rotor carried it".to_owned(),
-        None => return None,
-    };
-    let count = several.map_or_else(|| "N".to_owned(), |count| count.to_string());
-    Some(Notice::new(
-        text,
-        format!(
-            "if {count} rotors made the force together, give --rotors {count}; if one rotor made it, give --rotors 1"
-        ),
-    ))
+    match table.rotor_count.filter(|count| *count > 1) {
+        _ if plan.given_rotors.is_some() => None,
+        Some(count) => Some(Notice::new(
+            format!("the table names {count} rotors: hovertone divides each force equally between them"),
+            "if one rotor made the force alone, give --rotors 1",
+        )),
+        None if is_weighed => Some(Notice::new(
+            "hovertone uses each mass as if one rotor carried it",
+            "if N rotors carried the mass together, give --rotors N; if one rotor carried it, give --rotors 1",
+        )),
+        None => None,
+    }
 }
 
 /// Says that C_T is far outside the range of propellers in the air of any place.

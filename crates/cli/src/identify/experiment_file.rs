@@ -86,13 +86,19 @@ impl ExperimentSource {
     }
 }
 
+/// Whether a text is an experiment file, or an attempt at one.
+pub(crate) fn names_loads(text: &str) -> bool {
+    text.lines().any(|line| line.trim() == "[[load]]")
+}
+
 /// Refuses a folder, with what to give in its place: the experiment file in it, or its recordings with their mass.
 fn refuse_folder(path: &Path) -> Result<(), Failure> {
     if !path.is_dir() {
         return Ok(());
     }
     let names = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
-    let file = names.filter(|name| name.extension().is_some_and(|ending| ending == "toml")).min();
+    let tables = names.filter(|name| name.extension().is_some_and(|ending| ending == "toml"));
+    let file = tables.filter(|name| std::fs::read_to_string(name).is_ok_and(|text| names_loads(&text))).min();
     let hint = match file {
         Some(file) => format!("name the file in it: {}", file.display()),
         None if groups_in(path).is_empty() => "give the experiment file; `hovertone init` writes one".to_owned(),

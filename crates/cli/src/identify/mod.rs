@@ -6,7 +6,7 @@ mod logs;
 mod recordings;
 mod typed;
 
-pub(crate) use experiment_file::ExperimentSource;
+pub(crate) use experiment_file::{ExperimentSource, names_loads};
 use logs::FlownLog;
 pub(crate) use recordings::{LoadJob, jobs_of};
 use typed::{EXPERIMENT, TypedExperiment};
@@ -206,8 +206,8 @@ impl Deref for Identified {
 impl Identified {
     pub(crate) fn ending(&self) -> Ending {
         let has_failed_check = self.identification().failed_check_count() > 0;
-        let is_contradicted = self.warnings().iter().any(ThrustWarning::is_contradiction);
-        let of_checks = if has_failed_check || is_contradicted { Ending::Incomplete } else { Ending::Done };
+        let is_incomplete = self.warnings().iter().any(ThrustWarning::makes_incomplete);
+        let of_checks = if has_failed_check || is_incomplete { Ending::Incomplete } else { Ending::Done };
         ending_of(self.records()).max(of_checks)
     }
 

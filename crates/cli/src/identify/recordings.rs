@@ -3,7 +3,7 @@
 use super::ExperimentSource;
 use crate::copies::refuse_copies;
 use crate::failure::Failure;
-use crate::files::{files_of, home_expanded, is_pattern};
+use crate::files::{files_of, home_expanded, is_pattern, missing_folder};
 use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::recording::{Job, Requests};
 use crate::recording_files::{RecordingGroup, groups_below, groups_in};
@@ -210,8 +210,11 @@ fn in_words(group: &RecordingGroup) -> String {
     format!("{} ({})", group.pattern.display(), counted(group.files.len(), "file"))
 }
 
-/// The recordings in the folder of a pattern that matches none of them: often the ending is spelled otherwise.
+/// What is in the folder of a pattern that matches nothing: often the ending of the recordings is spelled otherwise, or there is no such folder.
 pub(super) fn nearby(pattern: &Path) -> Option<String> {
+    if let Some(folder) = missing_folder(pattern) {
+        return Some(format!("there is no folder {}", folder.display()));
+    }
     let folder = pattern.parent()?;
     let groups = groups_in(folder);
     let shown: Vec<String> = groups.iter().map(in_words).collect();

@@ -93,17 +93,19 @@ fn absurd_numbers_are_refused() {
 fn stated_uncertainties_that_are_too_large_are_named_where_the_law_cannot_be_tested() {
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("stand.csv");
-    let with = |thrust_std_n: f64| {
+    let with = |thrust_std_n: f64, ending: i32| {
         let rows: String = [3000, 3600, 4200, 5000]
             .map(|rpm| format!("{rpm},{},{thrust_std_n}\n", 7.7e-8 * f64::from(rpm * rpm)))
             .concat();
         fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{rows}")).unwrap();
-        hovertone(&["fit", text(&table)]).ends_with(0).stderr
+        hovertone(&["fit", text(&table)]).ends_with(ending).stderr
     };
-    let said = with(10.0);
+    // the ± of the constant is larger than the constant
+    let said = with(10.0, 3);
     assert!(said.contains("their stated uncertainties are too large"), "{said}");
     assert!(said.contains("the uncertainties that you stated"), "{said}");
-    assert!(!with(0.001).contains("too uncertain"), "{}", with(0.001));
+    assert!(said.contains("the ± of C_f is larger than C_f itself"), "{said}");
+    assert!(!with(0.001, 0).contains("too uncertain"), "{}", with(0.001, 0));
 }
 
 /// The weights of a fit would be lost in rounding: the row and the column are named, not a law.

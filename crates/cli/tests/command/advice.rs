@@ -43,7 +43,9 @@ fn a_folder_in_place_of_an_experiment_file_is_told_what_it_holds() {
     assert!(said().contains("`hovertone init` writes one"), "{}", said());
     write_noise(&folder.path().join("a.wav"), 0.1);
     assert!(said().contains(&format!("--mass 413g={}", text(folder.path()))), "{}", said());
-    fs::write(folder.path().join("bench.toml"), "").unwrap();
+    // of two files, one is an experiment
+    fs::write(folder.path().join("Cargo.toml"), "[package]\n").unwrap();
+    fs::write(folder.path().join("bench.toml"), "[[load]]\n").unwrap();
     assert!(said().contains("bench.toml)"), "{}", said());
 }
 

@@ -171,7 +171,32 @@ fn forces_of_several_rotors_are_noticed() {
     // a table of this project has the number in a column of its own
     fs::write(&path, "force_n,rotors_running,rpm\n4.05,4,3610\n4.35,4,3742\n4.53,4,3825\n").unwrap();
     let said = hovertone(&["fit", text(&path)]).ends_with(0).stderr;
-    assert!(said.contains("the table names 4 rotors") && said.contains("give --rotors 4"), "{said}");
+    assert!(said.contains("the table names 4 rotors") && said.contains("give --rotors 1"), "{said}");
+    // the rotors that the table names make the force, so that C_f of one rotor is the same as with the flag
+    let constant = |more: &[&str]| {
+        hovertone(&[&["fit", text(&path), "--json"], more].concat()).ends_with(0).json_lines().remove(0)
+    };
+    let per_rotor = |more: &[&str]| constant(more)["thrust_constant_per_rotor_n_s2"]["value"].as_f64().unwrap();
+    assert_eq!(per_rotor(&[]), per_rotor(&["--rotors", "4"]));
+    assert!((per_rotor(&["--rotors", "1"]) / per_rotor(&[]) - 4.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_constant_below_its_uncertainty_is_not_for_use() {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, results] = ["table.csv", "results.json"].map(|name| folder.path().join(name));
+    fs::write(&table, "rpm,thrust_g\n3000,100\n3300,220\n3500,80\n").unwrap();
+    let fitted = hovertone(&["fit", text(&table)]).ends_with(3);
+    assert!(fitted.stderr.contains("the ± of C_f is larger than C_f itself: it is 140 %"), "{}", fitted.stderr);
+    assert!(fitted.stdout.contains("do not use this constant: C_f"), "{}", fitted.stdout);
+    let json = hovertone(&["fit", text(&table), "--json"]).ends_with(3);
+    assert_eq!(json.json_lines()[0]["forbids_use"], true);
+    fs::write(&results, json.stdout).unwrap();
+    let exported = hovertone(&["export", text(&results), "--to", "gazebo"]).ends_with(3);
+    assert!(exported.stderr.contains("do not use this constant"), "{}", exported.stderr);
+    // a force beyond all vehicles is a slip
+    fs::write(&table, "rpm,thrust_g\n3000,100\n3300,1e300\n").unwrap();
+    refused_with(&["fit", text(&table)], &["line 3: the force is", "1e5 N or less", "correct the cell"]);
 }
 
 #[test]

@@ -21,6 +21,7 @@ pub(super) fn rotor() -> IdentifiedRotor {
         air_density_kg_m3: Some(1.17),
         torque_constant_n_m_s2: None,
         hover_command: Some(0.45),
+        forbids_use: false,
         doubts: Vec::new(),
         origin: "a test".to_owned(),
     }

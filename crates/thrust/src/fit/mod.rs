@@ -65,6 +65,7 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
             .filter(|coefficients| !coefficients.is_plausible)
             .map(|coefficients| ThrustWarning::ImplausibleThrustCoefficient { propeller: coefficients.propeller }),
     );
+    warnings.extend(total.and_then(|total| ThrustWarning::of_uncertainty(total, false)));
     warnings.extend(implausible_merits(&rows));
     warnings.extend(warnings_of_masses(&outlines_of(loads, &campaign), settings));
     if settings.follows_loudest && loads.iter().any(|load| load.rotors_running > 1) && total.is_some() {
@@ -318,6 +319,7 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
     let exchanged = gravity_m_s2.and_then(|_| exchanged_rows(&kept));
     let is_contradicted = exchanged.is_some();
     warnings.extend(exchanged);
+    warnings.extend(ThrustWarning::of_uncertainty(fit.thrust_constant_n_s2, true));
     let of_range = range_warnings(points, fit, are_split_points(points));
     warnings.extend(of_range.into_iter().filter(|warning| tells(warning, is_contradicted)));
     warnings
