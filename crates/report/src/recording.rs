@@ -336,7 +336,7 @@ impl SpeedRecord {
         let (is_order_given, is_mesh) = (self.found.is_none(), self.order.lines_per_turn() > BLADES_MAX);
         let are_blades_given = is_given("/tone/blades") || is_given("/known/blade_count");
         GivenFacts {
-            vehicle: is_given("/known/shaft_speed"),
+            vehicle: is_given("/known/vehicle"),
             blades: are_blades_given,
             gear: is_order_given && is_mesh,
             order: is_order_given && !is_mesh && !are_blades_given,

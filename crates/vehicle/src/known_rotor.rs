@@ -17,6 +17,8 @@ const ROTORS_ALLOWED: RangeInclusive<f64> = 1.0..=ROTORS_MAX as f64;
 /// Facts about a vehicle that exclude some shaft speeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct KnownRotor {
+    /// Name of the known vehicle that these facts come from, in files and flags.
+    pub vehicle: Option<&'static str>,
     /// Tip-to-tip diameter of a propeller.
     pub diameter_m: Option<f64>,
     /// Take-off mass.
@@ -33,6 +35,7 @@ impl KnownRotor {
     /// The facts of a preset.
     pub fn of_vehicle(vehicle: &Vehicle) -> Self {
         Self {
+            vehicle: Some(vehicle.id),
             diameter_m: vehicle.propeller_diameter_m.map(|diameter| diameter.value),
             mass_kg: vehicle.mass_kg.map(|mass| mass.value),
             rotor_count: Some(vehicle.rotor_count.value),

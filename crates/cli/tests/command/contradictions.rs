@@ -1,6 +1,7 @@
 //! What contradicts a known vehicle, or the results of one, is refused: on the command line and in a file alike.
 
 use crate::testkit::{hovertone, refused_with, steady_bench, steady_hover, text, write_hover};
+use hovertone_sim::HoverSettings;
 use hovertone_vehicle::{RotorSpeed, find_preset};
 use serde_json::Value;
 use std::fs;
@@ -30,6 +31,31 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
         refused_with(&[&flown[..], &["--rotors", "2"]].concat(), &["rotors = 2", "all rotors of the vehicle turn"]);
         refused_with(&[&flown[..], &["--diameter-m", "0.02"]].concat(), &["diameter_m = 0.02", "Mach 0.84"]);
     }
+}
+
+/// A speed that no multirotor has with this vehicle is doubtful, and the vehicle is to be checked: nobody gave a diameter.
+#[test]
+fn a_speed_too_fast_for_the_propellers_of_a_vehicle_is_doubtful() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_bench("crazyflie", RotorSpeed::from_rev_s(348.0), 3.0));
+    let run = hovertone(&["speed", text(&sound), "--vehicle", "f450", "--mean-only"]).ends_with(3);
+    assert!(run.stderr.contains("at Mach 0.8") && run.stderr.contains("(hint: check the vehicle)"), "{}", run.stderr);
+}
+
+/// Frames of a length that the method of the answer does not use tell nothing against the vehicle.
+#[test]
+fn a_length_of_frames_does_not_contradict_the_vehicle() {
+    let folder = tempfile::tempdir().unwrap();
+    let flown = HoverSettings::for_vehicle(find_preset("ardrone").unwrap(), RotorSpeed::from_rev_s(60.1));
+    write_hover(&folder.path().join("hover.wav"), HoverSettings { duration_s: 6.0, ..flown });
+    let experiment = folder.path().join("experiment.toml");
+    let of_load = "[[load]]\nname = \"a\"\nrecordings = [\"hover.wav\"]\n";
+    let vehicle = "[vehicle]\npreset = \"ardrone\"\nmass_kg = 0.413\n";
+    fs::write(&experiment, format!("{vehicle}[spectrogram]\nwindow_s = 1.0\n{of_load}")).unwrap();
+    let run = hovertone(&["identify", text(&experiment)]).ends_with(0);
+    assert!(run.stderr.contains("leave window_s under [spectrogram] out"), "{}", run.stderr);
+    assert!(!run.stderr.contains("does not fit the sound"), "{}", run.stderr);
 }
 
 #[test]

@@ -56,17 +56,19 @@ function Speed({ listening }: { listening: Listening }) {
   const { now, isFrozen } = listening;
   if (!now || now.status === "listening") return <p class="now none" role="status">The first answer comes after two seconds of sound.</p>;
   const { words, status_words } = now;
-  const silent = now.status === "ambiguous" ? status_words : "no rotor tone";
+  // a ± is that of one speed
+  const isOne = now.status !== "ambiguous";
+  const silent = isOne ? "no rotor tone" : status_words;
   return (
     <>
       <p class={`now ${now.status}`} data-time={now.time_s}>
-        {words ? <><strong>{words.speed_rev_s}</strong> <span class="beside"><span class="plusminus">± {words.plus_minus_rev_s}</span> <span>rev/s</span></span></> : <span class="words">{silent}</span>}
+        {words ? <><strong>{words.speed_rev_s}</strong> <span class="beside">{isOne && <span class="plusminus">± {words.plus_minus_rev_s}</span>} <span>rev/s{!isOne && "?"}</span></span></> : <span class="words">{silent}</span>}
       </p>
       <p class="quiet others">
-        {words ? `${words.speed_rpm} rpm · ${words.speed_rad_s} rad/s · ± ${words.plus_minus_percent} %` : status_words.slice(silent.length).replace(/^: /, "")}
+        {words && !isOne ? "one of several possible speeds" : words ? `${words.speed_rpm} rpm · ${words.speed_rad_s} rad/s · ± ${words.plus_minus_percent} %` : status_words.slice(silent.length).replace(/^: /, "")}
         {isFrozen && " · frozen"}
       </p>
-      <p class="unseen" role="status">{words ? "a rotor is heard" : silent}</p>
+      <p class="unseen" role="status">{words ? (isOne ? "a rotor is heard" : "a rotor is heard, at one of several possible speeds") : silent}</p>
     </>
   );
 }

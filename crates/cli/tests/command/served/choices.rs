@@ -49,6 +49,8 @@ fn a_person_decides_for_one_of_the_possible_speeds() {
         .wait_for(&format!("{} && {} && document.querySelector('.now.ambiguous')", offered(2), offered(3)), PATIENCE);
     let before_rev_s = large_speed(&mut browser);
     assert!((before_rev_s / 90.0 - 1.0).abs() < 0.01, "{before_rev_s} rev/s");
+    let said = browser.text("document.querySelector('.now').parentElement.innerText");
+    assert!(said.contains("one of several possible speeds") && !said.contains('±'), "{said}");
 
     browser.value(&format!("{}.click()", offered(3)));
     // the vehicle has three blades now, and the sound is heard again by that
