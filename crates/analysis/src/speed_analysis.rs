@@ -1,7 +1,8 @@
 //! The result for one recording.
 
 use crate::{
-    Band, Hover, Method, NoTone, Reading, Ridge, RotorEstimate, Span, SpeedEstimate, TrackPoint, Warning, WeighedSpeed,
+    Band, Hover, Method, NoTone, Reading, Ridge, RotorCondition, RotorEstimate, Span, SpeedEstimate, TrackPoint,
+    Warning, WeighedSpeed,
 };
 use serde::Serialize;
 
@@ -47,6 +48,9 @@ pub struct RotorTone {
     pub track: Vec<TrackPoint>,
     /// The separated rotors, fastest first; empty where they are not separated.
     pub rotors: Vec<RotorEstimate>,
+    /// The audible condition of the only rotor, where that was requested, one rotor turns, and its blade pass is audible.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub condition: Option<RotorCondition>,
     /// The samples of the paper, each with a speed for each method.
     pub samples: Vec<SampleSpeeds>,
     /// The speeds that remain possible, most probable first; empty where one is decided.

@@ -54,6 +54,7 @@ fn heard(file: &str, points: usize) -> ArchiveRow {
         speeds: vec![speed],
         track: (0..points).map(point).collect(),
         rotors: Vec::new(),
+        condition: None,
         samples: Vec::new(),
         alternatives: Vec::new(),
         weighed: Vec::new(),

@@ -256,7 +256,7 @@ pub mod rotors {
     pub use hovertone_rotor_id::by_spin_up::{
         RotorStart, SpinUp, labels_from_spin_up, passes_of_spin_up, speed_after_spin_up, spin_up_from_analysis,
     };
-    pub use hovertone_rotor_id::condition::conditions_from_analysis;
+    pub use hovertone_rotor_id::condition::{condition_of_one_rotor, conditions_from_analysis};
 }
 
 /// The thrust constant: from rotor speeds and known forces to C_f in F = C_f ω², with its uncertainty.

@@ -5,7 +5,7 @@ use crate::recording::SpeedRecord;
 use crate::speed::name_of_rotor;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
-use hovertone_analysis::ShaftLine;
+use hovertone_analysis::{RotorCondition, ShaftLine};
 
 /// The lines of all rotors, each relative to its own blade pass; `None` where no recording has them.
 pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<String> {
@@ -19,35 +19,46 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
     let wanted = || records.iter().filter(|record| record.wants_condition && record.speed().is_some());
     wanted().next()?;
     for record in wanted() {
-        let why_none = if record.rotors().is_empty() {
-            "not known: this needs two or more rotors that could be separated"
-        } else {
-            ""
+        let given = record.given_facts();
+        let are_blades_known = given.blades || given.vehicle;
+        if let Some(condition) = record.tone().and_then(|tone| tone.condition.as_ref()) {
+            table.push(row(record.file.clone(), condition));
+            continue;
+        }
+        let why_none = match () {
+            () if !record.rotors().is_empty() => "",
+            () if !are_blades_known => "not known: give the number of blades with --blades N",
+            () if record.is_one_rotor() => "not known: the tone of the blades is too faint, or never heard for 4 s",
+            () => "not known: the rotors could not be separated; if one rotor turns, give --rotors 1",
         };
         table.push_words(record.file.clone(), why_none.to_owned());
         for (index, rotor) in record.rotors().iter().enumerate() {
             let name = name_of_rotor(record, index);
-            let Some(condition) = &rotor.condition else {
-                let why = if record.given_facts().blades || record.given_facts().vehicle {
-                    "not known: another rotor sounds too near to the tone of its blades"
-                } else {
-                    "not known: give the number of blades with --blades N"
-                };
-                table.push_words(name, why.to_owned());
-                continue;
-            };
-            let between = condition.loudest_between();
-            let missing: Vec<String> = condition.missing_harmonics.iter().map(u32::to_string).collect();
-            table.push(vec![
-                name,
-                condition.lines.first().map_or_else(|| DASH.to_owned(), level),
-                between.map_or_else(|| DASH.to_owned(), level),
-                between.map_or_else(|| DASH.to_owned(), |line| line.order.to_string()),
-                if missing.is_empty() { DASH.to_owned() } else { missing.join(", ") },
-            ]);
+            match &rotor.condition {
+                Some(condition) => table.push(row(name, condition)),
+                None if are_blades_known => {
+                    table.push_words(
+                        name,
+                        "not known: another rotor sounds too near to the tone of its blades".to_owned(),
+                    );
+                }
+                None => table.push_words(name, "not known: give the number of blades with --blades N".to_owned()),
+            }
         }
     }
     Some(table_text(&table, width))
+}
+
+fn row(name: String, condition: &RotorCondition) -> Vec<String> {
+    let between = condition.loudest_between();
+    let missing: Vec<String> = condition.missing_harmonics.iter().map(u32::to_string).collect();
+    vec![
+        name,
+        condition.lines.first().map_or_else(|| DASH.to_owned(), level),
+        between.map_or_else(|| DASH.to_owned(), level),
+        between.map_or_else(|| DASH.to_owned(), |line| line.order.to_string()),
+        if missing.is_empty() { DASH.to_owned() } else { missing.join(", ") },
+    ]
 }
 
 /// The level of a line, or the level of the noise for an inaudible line.

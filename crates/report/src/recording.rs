@@ -322,7 +322,7 @@ impl SpeedRecord {
     }
 
     /// Whether one rotor alone is said to turn, as on a bench.
-    fn is_one_rotor(&self) -> bool {
+    pub(crate) fn is_one_rotor(&self) -> bool {
         self.settings.pointer("/known/rotor_count").and_then(Value::as_u64) == Some(1)
     }
 

@@ -196,6 +196,8 @@ struct SpeedLine<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     rotors: Vec<RotorLine<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<ConditionLine<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     labels: Option<LabelsLine>,
     from_s: Option<f64>,
     to_s: Option<f64>,
@@ -247,11 +249,17 @@ impl<'a> RotorLine<'a> {
             spread_rev_s: rotor.speed.spread_rev_s,
             mean_square_rad2_s2: rotor.speed.mean_square_rad2_s2,
             merged: &rotor.merged,
-            condition: rotor.condition.as_ref().map(|condition| ConditionLine {
-                shaft_over_blade_pass_db: condition.shaft_over_blade_pass_db(),
-                loudest_between: condition.loudest_between(),
-                condition,
-            }),
+            condition: rotor.condition.as_ref().map(ConditionLine::of),
+        }
+    }
+}
+
+impl<'a> ConditionLine<'a> {
+    fn of(condition: &'a RotorCondition) -> Self {
+        Self {
+            shaft_over_blade_pass_db: condition.shaft_over_blade_pass_db(),
+            loudest_between: condition.loudest_between(),
+            condition,
         }
     }
 }
@@ -314,6 +322,7 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         spread_rev_s: estimate.and_then(|estimate| estimate.spread_rev_s),
         mean_square_rad2_s2: estimate.and_then(|estimate| estimate.mean_square_rad2_s2),
         rotors: record.rotors().iter().enumerate().map(|(index, rotor)| RotorLine::of(record, index, rotor)).collect(),
+        condition: record.tone().and_then(|tone| tone.condition.as_ref()).map(ConditionLine::of),
         labels: LabelsLine::of(record),
         from_s: used.map(|used| used.from_s),
         to_s: used.map(|used| used.to_s),

@@ -1,6 +1,8 @@
 //! From an open recording to its record.
 
-use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
+use hovertone::rotors::{
+    SpinUp, condition_of_one_rotor, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up,
+};
 use hovertone::sound::Passes;
 use hovertone::speed::{
     Config, Error, Method, NoTone, Outcome, SpeedAnalysis, ToneConfig, Warning, passes_of_speed, speed_from_passes,
@@ -366,10 +368,24 @@ fn analysed(recording: &mut Recording, task: &Task<'_>, on_share: impl FnMut(Sha
         analysed = Analysed { analysis, spin_up: Some(spin_up), ..analysed };
     }
     if condition {
-        let conditions = conditions_from_analysis(&mut passes, &analysed.analysis, &analysed.config.tone)?;
-        if let Outcome::Ok(tone) = &mut analysed.analysis.outcome {
-            tone.rotors.iter_mut().zip(conditions).for_each(|(rotor, condition)| rotor.condition = condition);
-        }
+        add_conditions(&mut passes, &mut analysed)?;
     }
     Ok(analysed)
+}
+
+/// Adds the condition of each separated rotor, or of the only one.
+fn add_conditions(passes: &mut Passes<'_>, analysed: &mut Analysed) -> Result<(), Error> {
+    let Analysed { analysis, config, .. } = analysed;
+    if config.rotors.is_count_known && config.rotors.count == 1 {
+        let condition = condition_of_one_rotor(passes, analysis, &config.tone)?;
+        if let Outcome::Ok(tone) = &mut analysis.outcome {
+            tone.condition = condition;
+        }
+        return Ok(());
+    }
+    let conditions = conditions_from_analysis(passes, analysis, &config.tone)?;
+    if let Outcome::Ok(tone) = &mut analysis.outcome {
+        tone.rotors.iter_mut().zip(conditions).for_each(|(rotor, condition)| rotor.condition = condition);
+    }
+    Ok(())
 }

@@ -1,7 +1,7 @@
 //! What the lines of rotors say of their state, with the truth known.
 
 use crate::testkit::{SAMPLE_RATE_HZ, analyse, rotor, sound, tone};
-use hovertone::rotors::{RotorCondition, conditions_from_analysis};
+use hovertone::rotors::{RotorCondition, condition_of_one_rotor, conditions_from_analysis};
 use hovertone::sound::{Passes, Signal};
 use hovertone::speed::{Config, Method, ToneConfig};
 use hovertone_vehicle::Order;
@@ -59,6 +59,26 @@ fn an_unbalanced_rotor_shows_once_per_turn_and_unlike_blades_between() {
     }
     assert!(heard.iter().all(|rotor| rotor.missing_harmonics.is_empty()), "{heard:?}");
     assert!(heard[0].loudest_between().is_none() && heard[2].loudest_between().is_none(), "{heard:?}");
+}
+
+/// The same of the only rotor of a bench, along the track of its tone.
+#[test]
+fn an_unbalanced_rotor_shows_on_a_bench() {
+    let speed_rev_s = |time_s: f64| 71.8 + 0.2 * (1.3 * time_s).sin();
+    let sound = sound(&[rotor(&speed_rev_s, &with(&[(1.0, 0.012), (3.0, 0.008)]))], LENGTH_S, NOISE_STD, 6);
+    let config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
+    let analysis = analyse(sound.clone(), &config);
+    let (mut source, on_progress) = (Signal::new(sound, SAMPLE_RATE_HZ), &mut |_| {});
+    let mut passes = Passes::planned(&mut source, 1, on_progress).unwrap();
+    let heard = condition_of_one_rotor(&mut passes, &analysis, &config.tone).unwrap().unwrap();
+    for (order, amplitude) in [(1, 0.012), (3, 0.008), (4, 0.07), (6, 0.05), (8, 0.04)] {
+        let line = heard.lines.iter().find(|line| line.order == order).copied().unwrap();
+        let (level_db, expected_db) = (line.level_db.unwrap(), 20.0 * (amplitude / 0.1_f64).log10());
+        let tolerance_db = 3.0 * line.std_uncertainty_db.unwrap() + 0.5;
+        assert!((level_db - expected_db).abs() < tolerance_db, "{order}: {level_db} {expected_db}");
+    }
+    assert_eq!(heard.loudest_between().map(|line| line.order), Some(3));
+    assert!(heard.missing_harmonics.is_empty());
 }
 
 #[test]

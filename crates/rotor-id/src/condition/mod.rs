@@ -10,10 +10,11 @@ mod block_lines;
 
 use crate::speed_curve::SpeedCurve;
 use block_lines::{BlockLines, BlockSums, LinePower};
-use hovertone_analysis::{Outcome, RotorCondition, RotorEstimate, ShaftLine, SpeedAnalysis};
+use hovertone_analysis::{Outcome, RotorCondition, ShaftLine, SpeedAnalysis, TrackPoint};
 use hovertone_rotor_speed::{ToneConfig, blades_known};
 use hovertone_signal::SignalError;
 use hovertone_signal::passes::{Passes, StretchListener};
+use hovertone_signal::statistics::mean;
 use std::f64::consts::LN_10;
 
 /// Length of a block, in s: separates the shaft lines of rotors half a turn per second apart, and a hover of ten seconds has two
@@ -43,7 +44,32 @@ pub fn conditions_from_analysis(
     let Outcome::Ok(found) = &analysis.outcome else { return Ok(Vec::new()) };
     let blades = blades_known(tone).filter(|_| !found.rotors.is_empty());
     let Some(blades) = blades else { return Ok(vec![None; found.rotors.len()]) };
-    let mut listener = ConditionListener::new(passes.sample_rate_hz(), &found.rotors, blades);
+    let tracks: Vec<&[TrackPoint]> = found.rotors.iter().map(|rotor| rotor.track.as_slice()).collect();
+    conditions_along(passes, analysis, &tracks, blades)
+}
+
+/// The condition of the only rotor that turns, along the track of its tone; one pass. `None` if its blade pass is not audible, the number of blades is
+/// unknown, or no part of the hover is as long as a block.
+///
+/// # Errors
+/// A source that fails.
+pub fn condition_of_one_rotor(
+    passes: &mut Passes<'_>,
+    analysis: &SpeedAnalysis,
+    tone: &ToneConfig,
+) -> Result<Option<RotorCondition>, SignalError> {
+    let Outcome::Ok(found) = &analysis.outcome else { return Ok(None) };
+    let Some(blades) = blades_known(tone) else { return Ok(None) };
+    Ok(conditions_along(passes, analysis, &[&found.track], blades)?.into_iter().next().flatten())
+}
+
+fn conditions_along(
+    passes: &mut Passes<'_>,
+    analysis: &SpeedAnalysis,
+    tracks: &[&[TrackPoint]],
+    blades: u32,
+) -> Result<Vec<Option<RotorCondition>>, SignalError> {
+    let mut listener = ConditionListener::new(passes.sample_rate_hz(), tracks, blades);
     passes.listen(&analysis.hover.spans_s(), &mut listener)?;
     Ok(listener.finish())
 }
@@ -61,13 +87,18 @@ struct ConditionListener {
 }
 
 impl ConditionListener {
-    fn new(sample_rate_hz: f64, rotors: &[RotorEstimate], blades: u32) -> Self {
-        let fastest_rev_s = rotors.iter().map(|rotor| rotor.speed.speed.rev_s()).fold(0.0, f64::max);
+    fn new(sample_rate_hz: f64, tracks: &[&[TrackPoint]], blades: u32) -> Self {
+        let mean_rev_s = |track: &[TrackPoint]| {
+            let speeds: Vec<f64> =
+                track.iter().map(|point| point.speed_rev_s).filter(|rev_s| rev_s.is_finite()).collect();
+            mean(&speeds).unwrap_or(0.0)
+        };
+        let fastest_rev_s = tracks.iter().map(|track| mean_rev_s(track)).fold(0.0, f64::max);
         let below_nyquist = (SAMPLE_RATE_SHARE * sample_rate_hz / fastest_rev_s.max(f64::MIN_POSITIVE)) as u32;
         Self {
             sample_rate_hz,
             blades,
-            curves: rotors.iter().map(|rotor| SpeedCurve::through(&rotor.track)).collect(),
+            curves: tracks.iter().map(|track| SpeedCurve::through(track)).collect(),
             order_max: (BLADE_PASS_LINES * blades).min(below_nyquist),
             next_s: 0.0,
             block: None,

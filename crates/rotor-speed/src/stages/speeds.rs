@@ -73,7 +73,8 @@ pub(crate) fn speeds_from_decision(
     warnings.extend(warning_of_parts(&hover, &track, config.hover.manoeuvre_share_min));
     let alternatives = as_heard(alternatives, speeds.first());
     let Lines { bands, ridges, .. } = lines;
-    let tone = RotorTone { bands, window_s, speeds, track, rotors, samples, ridges, alternatives, weighed };
+    let condition = None;
+    let tone = RotorTone { bands, window_s, speeds, track, rotors, condition, samples, ridges, alternatives, weighed };
     Ok(SpeedAnalysis { heard, hover, outcome: Outcome::Ok(tone), warnings })
 }
 
