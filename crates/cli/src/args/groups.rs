@@ -61,7 +61,8 @@ pub(crate) struct AnalysisArguments {
     /// Largest error of the recorder's clock, in millionths [default: 50]
     #[arg(long, value_name = "PPM")]
     pub(crate) clock_ppm: Option<f64>,
-    /// Show how strong the tone of each rotor's shaft is beside the tone of its blades: it may come from imbalance or from unequal blades. It needs --blades, and rotors that can be separated, or --rotors 1
+    /// Show how strong the tone of each rotor's shaft is beside the tone of its blades: it may come from imbalance or from
+    /// unequal blades. It needs --blades, and rotors that can be separated, or --rotors 1
     #[arg(long)]
     pub(crate) condition: bool,
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]

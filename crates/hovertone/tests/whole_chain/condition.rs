@@ -65,7 +65,7 @@ fn an_unbalanced_rotor_shows_once_per_turn_and_unlike_blades_between() {
 #[test]
 fn an_unbalanced_rotor_shows_on_a_bench() {
     let speed_rev_s = |time_s: f64| 71.8 + 0.2 * (1.3 * time_s).sin();
-    let sound = sound(&[rotor(&speed_rev_s, &with(&[(1.0, 0.012), (3.0, 0.008)]))], LENGTH_S, NOISE_STD, 6);
+    let sound = sound(&[rotor(speed_rev_s, &with(&[(1.0, 0.012), (3.0, 0.008)]))], LENGTH_S, NOISE_STD, 6);
     let config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
     let analysis = analyse(sound.clone(), &config);
     let (mut source, on_progress) = (Signal::new(sound, SAMPLE_RATE_HZ), &mut |_| {});

@@ -48,8 +48,8 @@ pub fn conditions_from_analysis(
     conditions_along(passes, analysis, &tracks, blades)
 }
 
-/// The condition of the only rotor that turns, along the track of its tone; one pass. `None` if its blade pass is not audible, the number of blades is
-/// unknown, or no part of the hover is as long as a block.
+/// The condition of the only rotor that turns, along the track of its tone; one pass. `None` if its blade pass is not audible, the number of
+/// blades is unknown, or no part of the hover is as long as a block.
 ///
 /// # Errors
 /// A source that fails.

@@ -1,6 +1,9 @@
 //! Warnings about a thrust constant, each with a hint. They are values; nothing here prints.
 
-use crate::drift::{Drift, DriftKind};
+mod hints;
+mod text;
+
+use crate::drift::Drift;
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
 use crate::statistics::COVERAGE_FACTOR;
@@ -206,92 +209,6 @@ impl ThrustWarning {
         }
     }
 
-    /// Advice to the user.
-    pub fn hint(&self) -> &'static str {
-        match self {
-            Self::LoadDoesNotFit { is_row: true, .. } => {
-                "check the unit, the offset of the scale and the propeller of this row"
-            }
-            Self::LoadDoesNotFit { mass_that_fits_kg: Some(_), is_left_out: false, .. } => {
-                "weigh that load again, and check that it does not block the air of the rotors"
-            }
-            Self::LoadDoesNotFit { mass_that_fits_kg: None, is_left_out: false, .. } => {
-                "check the thrust and the recordings of that load"
-            }
-            Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale and the propellers",
-            Self::LoadsDisagree { has_added_mass, .. } => disagree_hint(*has_added_mass),
-            Self::HeavierTurnedSlower { .. } => {
-                "do not use this constant: check whether two masses are exchanged, and which recording belongs to which load"
-            }
-            Self::TrialsInGroups { .. } => {
-                "if the recordings were flown with different masses, give each mass a [[load]] of its own"
-            }
-            Self::ConstantsDiffer { .. } => {
-                "do not use this constant: check masses, units and tone of both loads, and which recording belongs to which load"
-            }
-            Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
-                "check that each recording is under the right [[load]]; if so, check it alone with `hovertone speed`"
-            }
-            Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
-                "do not use this constant: check the decimal point and the unit of the mass, and the name of the vehicle"
-            }
-            Self::MassFarFromKnown { .. } => {
-                "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
-            }
-            Self::VehicleDoesNotFit { .. } => {
-                "do not use this constant: check the vehicle, its blades and its gear; if they are right, record again with the microphone nearer"
-            }
-            Self::RowsDoNotFit { .. } => {
-                "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another propeller"
-            }
-            Self::TrialLeftOut { .. } => {
-                "check this recording with `hovertone speed`: the tone may come from another harmonic or another machine"
-            }
-            Self::LoadDoesNotFit { is_left_out: true, .. } => "check the mass of this load, its unit and recordings",
-            Self::ConstantsSplit => {
-                "do not use this constant: check the masses, their units, the number of rotors and the order of the tone (blades or gear), and measure one more load"
-            }
-            Self::MixedBenchAndHover => {
-                "at the same speed, a rotor has another thrust on a bench than in flight: put bench runs and hovers into two experiment files"
-            }
-            Self::SingleLoad => "measure a second load",
-            Self::OneRecordingEach { .. } => "record each load five times, if possible, and land in between",
-            Self::EqualLoads { .. } => "measure masses as far apart as is safe: equal masses cannot test the law",
-            Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
-                "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
-            }
-            Self::NarrowLoadRange(_) => {
-                "C_f is still valid near these forces; to test the law, measure a wider range of forces; `hovertone fit --plan` plans such hovers"
-            }
-            Self::OtherLawPreferred { .. } => "simulators use F = C_f ω²: use C_f only near the measured speeds",
-            Self::ConstantDrifts(Drift { kind: DriftKind::PerRow | DriftKind::PerVolt, .. }) => {
-                "neither time nor voltage changes the thrust at a given speed, so it is the stand that drifts: zero it between runs, let it warm up, and measure in a random sequence"
-            }
-            Self::ConstantDrifts(_) => {
-                "fly all loads at the same height and place, in a random sequence, and each with an equally full battery"
-            }
-            Self::ImplausibleThrustCoefficient { .. } => {
-                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone (blades or gear)"
-            }
-            Self::ImplausibleFigureOfMerit { .. } => {
-                "rotors have 0.05 to 0.85: check the power (of all running rotors together), its unit, and the diameter"
-            }
-            Self::UncertaintiesIncomplete { .. } => "give an uncertainty in every row, or in none",
-            Self::MassNotWeighed { .. } => {
-                "weigh the vehicle ready to fly, and write mass_kg under [vehicle]: 1 % of error in the mass is 1 % in C_f, and the ± does not include it"
-            }
-            Self::TooUncertain { is_of_rows: true, .. } => {
-                "do not use this constant: check the speeds, the forces, their units and the uncertainties that you stated, and measure more rows"
-            }
-            Self::TooUncertain { .. } => {
-                "do not use this constant: check the masses and which recording belongs to which load, then record each load five times"
-            }
-            Self::LoudestRotor => {
-                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
-            }
-        }
-    }
-
     /// The warning about the load that is farthest from the mass of the known vehicle, where one is outside of [`KNOWN_MASS_SHARES`].
     pub fn of_masses<'a>(loads: impl IntoIterator<Item = (&'a str, Force)>, known_kg: f64) -> Option<Self> {
         let masses = loads.into_iter().filter_map(|(name, force)| Some((name, force.mass_kg()?)));
@@ -312,15 +229,5 @@ impl ThrustWarning {
                 | Self::TrialsInGroups { .. }
                 | Self::HeavierTurnedSlower { .. }
         )
-    }
-}
-
-/// What to check where loads do not fit each other.
-fn disagree_hint(has_added_mass: bool) -> &'static str {
-    if has_added_mass {
-        "check whether two masses are exchanged, and which recording belongs to which load; is each added mass (added_mass_kg) \
-         without the mass of the vehicle?"
-    } else {
-        "check whether two masses are exchanged, and which recording belongs to which load"
     }
 }

@@ -1,0 +1,98 @@
+//! What each warning says.
+
+use super::ThrustWarning;
+use crate::statistics::COVERAGE_FACTOR;
+use crate::warning_words::{
+    differ_text, drift_text, first_names, foreign_text, groups_text, mass_text, misfit_text, range_text, ratio_text,
+    short_text,
+};
+use std::fmt;
+
+impl fmt::Display for ThrustWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LoadDoesNotFit { name, is_row, mass_that_fits_kg, mass_that_fits_std_kg, is_left_out } => {
+                let that_fits = mass_that_fits_kg.map(|mass_kg| (mass_kg, *mass_that_fits_std_kg));
+                f.write_str(&misfit_text(name, *is_row, that_fits, *is_left_out))
+            }
+            Self::LoadsDisagree { names, are_rows, .. } => {
+                let noun = if *are_rows { "rows" } else { "loads" };
+                write!(f, "the {noun} do not fit each other: {}", first_names(names))
+            }
+            Self::TrialFarFromOthers { load, recording, thrust_share } => {
+                let than = if *thrust_share > 0.0 { "more" } else { "less" };
+                let percent = 100.0 * thrust_share.abs();
+                write!(f, "the rotor speed in {recording} means {percent:.0} % {than} thrust than in the other recordings of load \"{load}\"")
+            }
+            Self::TrialsInGroups { load, groups_rev_s } => {
+                write!(f, "the recordings of load \"{load}\" form {}", groups_text(groups_rev_s))
+            }
+            Self::ConstantsDiffer { least, most, share, stated_share } => {
+                f.write_str(&differ_text([least, most], *share, *stated_share))
+            }
+            Self::TrialsDiffer { load, least, most, thrust_share } => {
+                write!(f, "the rotor speeds mean {:.0} % more thrust in {most} than in {least}, but both are of load \"{load}\"", 100.0 * thrust_share)
+            }
+            Self::HeavierTurnedSlower { heavy, light } => {
+                write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")
+            }
+            Self::MassFarFromKnown { load, mass_kg, known_kg } => write!(
+                f,
+                "load \"{load}\" weighs {}, {} times as much as the named vehicle ({})",
+                mass_text(*mass_kg),
+                ratio_text(mass_kg / known_kg),
+                mass_text(*known_kg)
+            ),
+            Self::VehicleDoesNotFit { hardly_heard, elsewhere, of } => {
+                f.write_str(&foreign_text(*hardly_heard, *elsewhere, *of))
+            }
+            Self::RowsDoNotFit { names, are_left_out } => {
+                write!(f, "{} rows do not fit the others: {}", names.len(), first_names(names))?;
+                if *are_left_out { f.write_str("; they are left out: their constants are more than twice, or less than half, the constant of \
+                the others") } else { f.write_str("; the fit uses them too") }
+            }
+            Self::TrialLeftOut { load, recording } => {
+                write!(f, "{recording} of load \"{load}\" is left out: its constant is more than twice, or less than half, the constant of \
+                the other recordings")
+            }
+            Self::ConstantsSplit => f.write_str(
+                "the constants C_f form two groups that differ by a factor of two or more, and nothing shows which group is right",
+            ),
+            Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
+            Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
+            Self::OneRecordingEach { load_count } => f.write_str(one_each_text(*load_count)),
+            Self::EqualLoads { count } => write!(f, "all {count} loads have the same force, or nearly so"),
+            Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
+            Self::OtherLawPreferred { law, probability } => {
+                write!(f, "the law {} fits the forces better than F = C_f ω²: its probability is {:.1} %", law.formula(), 100.0 * probability)
+            }
+            Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
+            Self::ImplausibleThrustCoefficient { propeller } => {
+                write!(f, "the thrust coefficient C_T = T/(ρ n² D⁴) is {}, and no propeller has that", short_text(*propeller, 3))
+            }
+            Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
+                write!(f, "the figure of merit (ideal power over measured power) is {} (\"{name}\"), and no rotor has that", short_text(*figure_of_merit, 3))
+            }
+            Self::UncertaintiesIncomplete { stated, of } => {
+                write!(f, "only {stated} of {of} rows have an uncertainty above 0: the ± comes from the scatter of all rows")
+            }
+            Self::MassNotWeighed { mass_kg } => {
+                write!(f, "the mass of the vehicle, {:.1} g, comes from a preset or a model: this vehicle was not weighed", 1e3 * mass_kg)
+            }
+            Self::LoudestRotor => f.write_str("the rotors could not be separated: one tone is used for all, from the loudest rotor or from \
+            several"),
+            Self::TooUncertain { share, .. } => {
+                write!(f, "the ± of C_f is larger than C_f itself: it is {:.0} % (k = {COVERAGE_FACTOR})", 100.0 * share)
+            }
+        }
+    }
+}
+
+fn one_each_text(load_count: usize) -> &'static str {
+    match load_count {
+        1 => {
+            "only one recording can be used, so the ± does not include how much the speed differs from flight to flight"
+        }
+        _ => "each load has one recording, so the law cannot be tested; the ± comes from the scatter of the loads",
+    }
+}
