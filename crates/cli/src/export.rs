@@ -129,6 +129,13 @@ fn change(
             "write the changed model to a file with -o FILE",
         ));
     }
+    if rotor.forbids_use {
+        return Err(Failure::failed(
+            "the warnings of these results say not to use their constant: nothing was written",
+            "correct what the warnings name, run `hovertone identify` again, and give its results",
+            &arguments.results,
+        ));
+    }
     let text = read_text(model, "the model")?;
     let before = model_from_text(&text).map_err(|error| model_failure(&error, model))?;
     let updated = updated_model(&text, rotor).map_err(|error| unchanged(&error, model, arguments))?;

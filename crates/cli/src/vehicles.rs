@@ -76,6 +76,10 @@ pub(crate) fn known_vehicles() -> Result<Vec<Vehicle>, Failure> {
 pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
     let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
     let list = known.join(", ");
+    if preset(name).is_ok() {
+        let hint = format!("this command flies the model of a vehicle, and only {list} have one: choose one of them");
+        return (format!("the vehicle \"{name}\" has no flight model"), hint);
+    }
     let hint = match nearest(name, known) {
         Some(nearest) => format!("did you mean \"{nearest}\"? The flight model knows {list}"),
         None => format!("the flight model knows {list}"),

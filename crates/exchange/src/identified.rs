@@ -210,6 +210,8 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
     let text = |pointer: &str| results.pointer(pointer).and_then(Value::as_str);
     let file = text("/settings/file").or(text("/file")).unwrap_or("?");
     let sha256 = text("/settings/sha256").or(text("/sha256")).unwrap_or("?");
+    // older results have no such field
+    let forbids_use = results.get("forbids_use").and_then(Value::as_bool).unwrap_or(false);
     Ok(IdentifiedRotor {
         vehicle_name: text("/settings/experiment/vehicle_name")
             .or(text("/group").filter(|group| !group.is_empty()))
@@ -237,14 +239,14 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
         tone: results.pointer("/settings/experiment/config/tone").and_then(|tone| HeardTone::deserialize(tone).ok()),
         method: text("/method").map(str::to_owned),
         trial_std_share: trial_std_share(&results),
-        // older results have no such field
-        forbids_use: results.get("forbids_use").and_then(Value::as_bool).unwrap_or(false),
+        forbids_use,
         doubts: doubts(&results),
         origin: format!(
-            "hovertone {} from {file} (sha256 {}){}",
+            "{}hovertone {} from {file} (sha256 {}){}",
+            if forbids_use { "DO NOT USE THIS CONSTANT, its warnings say why: " } else { "" },
             text("/version").unwrap_or("?"),
             sha256.chars().take(12).collect::<String>(),
-            text("/method").map_or(String::new(), |method| format!(", method: {method}{}", heard_as_a_group(&results)))
+            text("/method").map_or(String::new(), |method| format!(", method: {}", method_in_words(method, &results)))
         ) + &doubts(&results).iter().map(|doubt| format!("; warning: {}", doubt.text)).collect::<String>(),
     })
 }
@@ -255,17 +257,20 @@ fn doubts(results: &Value) -> Vec<Doubt> {
     lines.into_iter().flatten().filter_map(Value::as_str).map(Doubt::from_line).collect()
 }
 
-/// What happens to rotors that cannot be separated.
-const GROUP: &str = "the rotors could not be separated and were heard as a group";
-
-/// The recordings in which the rotors were heard as a group, for the comment; empty without one.
-fn heard_as_a_group(results: &Value) -> String {
-    let of = |way: &str| results.pointer(&format!("/rotors_heard/{way}")).and_then(Value::as_u64).unwrap_or(0);
-    match (of("group"), of("separated") + of("one_tone")) {
-        (0, _) => String::new(),
-        (_, 0) => format!("; {GROUP}"),
-        (group, others) => format!("; {GROUP} in {group} of {} recordings", group + others),
-    }
+/// The method, and in how many recordings the rotors were heard in which way, where several were sought: "rotors separated in 9 recordings, heard as a
+/// group in 6".
+fn method_in_words(method: &str, results: &Value) -> String {
+    let count = |way: &str| results.pointer(&format!("/rotors_heard/{way}")).and_then(Value::as_u64).unwrap_or(0);
+    let ways = [
+        (count("separated"), "separated"),
+        (count("group"), "heard as a group"),
+        (count("one_tone"), "heard as one tone"),
+    ];
+    let mut heard = ways.into_iter().filter(|(count, _)| *count > 0);
+    let first = heard.next().filter(|_| method == "separated");
+    let Some((count, way)) = first else { return method.to_owned() };
+    let noun = if count == 1 { "recording" } else { "recordings" };
+    heard.fold(format!("rotors {way} in {count} {noun}"), |text, (count, way)| format!("{text}, {way} in {count}"))
 }
 
 #[derive(Clone, Copy)]

@@ -16,7 +16,6 @@ const DOTS_MAX: usize = 700;
 const MARGIN: f64 = 0.08;
 /// An observation is drawn where its standard uncertainty is below this share of the range.
 const STD_SHARE_MAX: f64 = 0.1;
-const KEY: i32 = 300;
 
 /// Speeds to be drawn.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +24,8 @@ pub struct DrawnSpeeds<'a> {
     pub observations: &'a [SpeedObservation],
     /// The predicted ones.
     pub prediction: &'a SpeedPrediction,
+    /// Where the observed ones come from: "heard", "logged", or "true".
+    pub source: &'static str,
     /// Names of the rotors.
     pub places: [&'static str; 4],
 }
@@ -40,15 +41,16 @@ pub fn grey_box_figure(drawn: &DrawnSpeeds<'_>) -> Result<Figure, FigureError> {
     let margin = MARGIN * (fastest - slowest).max(1e-3 * fastest);
     let prediction = drawn.prediction;
     let end_s = prediction.start_s + prediction.step_s * prediction.speed_rad_s.len() as f64;
-    let place = Place { left: 180, top: 100, right: WIDTH - 80, bottom: 810 };
+    let place = Place { left: 180, top: 140, right: WIDTH - 80, bottom: 850 };
+    let observed = drawn.source;
     let panel = Panel {
         place,
         x: Axis::new("time (s)", Extent::new(prediction.start_s, end_s)).with_ticks(11),
         y: Axis::new("shaft speed (rev/s)", Extent::new(slowest - margin, fastest + margin)).with_ticks(8),
         right: None,
-        title: "predicted (lines) and observed (dots) speeds".to_owned(),
+        title: format!("predicted (lines) and {observed} (dots) speeds"),
     };
-    let mut canvas = Canvas::new("grey-box", 940);
+    let mut canvas = Canvas::new("grey-box", 980);
     canvas.panel(&panel)?;
     let stride = prediction.speed_rad_s.len().div_ceil(POINTS_MAX).max(1);
     for (rotor, name) in drawn.places.iter().enumerate() {
@@ -64,14 +66,14 @@ pub fn grey_box_figure(drawn: &DrawnSpeeds<'_>) -> Result<Figure, FigureError> {
         })?;
     }
     canvas.layer("key", |sheet| {
-        let mut at = Point::new(place.right - 4 * KEY, place.top - LETTER + 4);
+        let mut at = Point::new(place.left, LETTER - 4);
         for (rotor, name) in drawn.places.iter().enumerate() {
             at.x = sheet.key(at, SERIES[rotor % SERIES.len()], name)?;
         }
         Ok(())
     })?;
-    let words = "Speeds of the four rotors: predicted by the model as lines, observed as dots.".to_owned();
-    Ok(canvas.finish("Predicted and observed speeds", words))
+    let words = format!("Speeds of the four rotors: predicted by the model as lines, {observed} as dots.");
+    Ok(canvas.finish(format!("Predicted and {observed} speeds"), words))
 }
 
 fn dots_of(drawn: &DrawnSpeeds<'_>, rotor: usize, range_rev_s: f64) -> Vec<Point> {

@@ -3,6 +3,7 @@
 use crate::motor::torque_constant_text;
 use crate::notice::Notice;
 use crate::number::{DASH, fixed, significant, with_uncertainty};
+use crate::other_hover::OtherHover;
 use crate::printable::printable;
 use crate::quote::counted;
 use crate::table_lines::table_text;
@@ -39,6 +40,8 @@ pub struct GreyBoxRecord {
     pub log_moved_s: f64,
     /// A rotor of another vehicle that fits the sound far better.
     pub better: Option<OtherRotor>,
+    /// Another hover speed than that of the vehicle's numbers.
+    pub other_hover: Option<OtherHover>,
     /// Loss of likelihood by the best swap of two names, nats; absent for logged speeds.
     pub names_nats: Option<f64>,
     /// C_τ, or why not.
@@ -126,7 +129,8 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
         Notice::new(what, "check --log-axes, and the signs of the log's columns")
     });
     let better = record.better.map(Warning::FitsElsewhere);
-    gains.into_iter().chain(better.map(|better| Notice::new(better.to_string(), better.hint()))).collect()
+    let hover = record.other_hover.map(Notice::from);
+    hover.into_iter().chain(gains).chain(better.map(|better| Notice::new(better.to_string(), better.hint()))).collect()
 }
 
 /// That the clock of a log was moved; `None` where it was right.
@@ -225,20 +229,24 @@ const NAMES_NATS_MIN: f64 = 4.6;
 const PERCENT_MIN: f64 = 0.001;
 
 fn check_lines(record: &GreyBoxRecord) -> String {
-    let line = |of: &Checked| match PERCENT * of.change_share {
+    let line = |of: &Checked, is_heard: bool| match PERCENT * of.change_share {
         ..PERCENT_MIN => "the speeds do not change, so nothing is compared".to_owned(),
         percent => format!(
-            "the predicted speeds differ from the true ones by {} % (rms); the speeds themselves change by {} % (rms)",
+            "the predicted speeds differ from the {} ones by {} % (rms); the speeds themselves change by {} % (rms)",
+            if is_heard { "heard" } else { "logged" },
             significant(PERCENT * of.rms_share, 2),
             significant(percent, 2)
         ),
     };
-    let mut text = record.fitted.as_ref().map_or(String::new(), |fitted| format!("on this flight: {}\n", line(fitted)));
+    let mut text = record
+        .fitted
+        .as_ref()
+        .map_or(String::new(), |fitted| format!("on this flight: {}\n", line(fitted, !record.are_speeds_logged)));
     if let Some(other) = &record.other_flight {
         text += &moved_in_words(&other.log, other.log_moved_s).map_or(String::new(), |words| words + "\n");
         let name = printable(other.recording.as_deref().unwrap_or(&other.log));
         text += &match &other.result {
-            Some(result) => format!("on {name}, not used for the fit: {}\n", line(result)),
+            Some(result) => format!("on {name}, not used for the fit: {}\n", line(result, other.recording.is_some())),
             None => format!("on {name}: no rotor could be separated from the others, so nothing is compared\n"),
         };
     }

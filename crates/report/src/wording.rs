@@ -31,6 +31,10 @@ impl Wording {
                 "if fewer rotors turn, write in the experiment file, under [vehicle], rotors = N (on a bench, \
                 rotors_running = N under [[load]])",
             ),
+            (
+                "give their number with --rotors",
+                "write rotors = N under [vehicle] (on a bench, rotors_running = N under [[load]])",
+            ),
             ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
             (" alone, in place of the vehicle", " and rotors = N, in place of preset"),
             ("give --blades N", "write blades = N under [vehicle]"),

@@ -21,7 +21,7 @@ use hovertone_logs::{ColumnNames, RateAxes};
 use hovertone_page::{LowLevelPage, low_level_html};
 use hovertone_report::{
     GreyBoxRecord, TitledTable, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables, grey_box_text,
-    table_text,
+    significant, table_text,
 };
 use hovertone_sim::FlightState;
 use hovertone_sim::scenario::{
@@ -61,19 +61,32 @@ pub(super) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     let compared = OtherFlight { files: &check_files, speeds: &other, moved_s: check_log.moved_s };
     let record = record_of(&fit_files, &fit_log, &heard, &vehicle, Some(compared));
     let own = heard.speeds(&fit_log);
-    let drawn = |observations, prediction, name: &str, title: &str| {
-        named_figure(&DrawnSpeeds { observations, prediction, places: record.places }, name, title)
+    let drawn = |observations, prediction, source, name: &str, title: &str| {
+        named_figure(&DrawnSpeeds { observations, prediction, source, places: record.places }, name, title)
     };
     let beside = Beside::fly(
         &check,
         ScenarioFile { maneuvers: check.maneuvers.clone(), ..scenario_file(&heard.fit, &vehicle) },
     )?;
     let figures = [
-        drawn(&own.observations, &own.prediction, "fit", "Doublets, predicted and heard")?,
-        drawn(&other.observations, &other.prediction, "check", "Another flight, predicted and heard")?,
+        drawn(
+            &own.observations,
+            &own.prediction,
+            "heard",
+            "fit",
+            "The flight of the fit: speeds, predicted and heard",
+        )?,
+        drawn(
+            &other.observations,
+            &other.prediction,
+            "heard",
+            "check",
+            "A second flight, which the fit did not use: speeds, predicted and heard",
+        )?,
         drawn(
             &beside.truth,
             &beside.identified,
+            "true",
             "identified",
             "The identified model (lines) flies beside the true one (dots)",
         )?,
@@ -210,9 +223,9 @@ impl Beside {
     fn in_words(&self) -> String {
         checked(&self.truth, &self.identified).map_or(String::new(), |checked| {
             format!(
-                "in another flight, the speeds of the identified model differ from the true speeds by {:.2} % (rms); the speeds themselves change by {:.2} % (rms)",
-                100.0 * checked.rms_share,
-                100.0 * checked.change_share
+                "in another flight, the speeds of the identified model differ from the true speeds by {} % (rms); the speeds themselves change by {} % (rms)",
+                significant(100.0 * checked.rms_share, 2),
+                significant(100.0 * checked.change_share, 2)
             )
         })
     }

@@ -1,6 +1,7 @@
 //! A flight: its log as inputs of the model, and the speeds of its rotors.
 
 use super::shown;
+use super::start::{Start, heard_mean, mean_of};
 use crate::failure::Failure;
 use crate::inputs::open_stream;
 use crate::log::{THE_LOG, log_failure};
@@ -14,7 +15,7 @@ use hovertone_dynamics::{
     grey_box_from_speeds, log_offset_s, observations_of_rows, speeds_along,
 };
 use hovertone_logs::{ColumnNames, LoggedControl, MissingControl, RateAxes, control_from_log};
-use hovertone_report::Notice;
+use hovertone_report::{Notice, OtherHover};
 use hovertone_vehicle::{
     FlightParameters, GRAVITY_STANDARD_M_S2, KnownRotor, RotorSpeed, SaidOfVehicle, Vehicle, find_flight_parameters,
     find_preset,
@@ -90,13 +91,20 @@ impl GreyBoxVehicle {
         self.parameters.id
     }
 
-    pub(crate) fn start(&self) -> GreyBoxModel {
-        GreyBoxModel::of(&self.parameters, self.mass_kg, GRAVITY_STANDARD_M_S2)
+    /// The model by the vehicle's numbers with a mass.
+    pub(super) fn model_of(&self, mass_kg: f64) -> GreyBoxModel {
+        GreyBoxModel::of(&self.parameters, mass_kg, GRAVITY_STANDARD_M_S2)
     }
 
     /// The settings with which its rotors are heard in a hover.
     fn config(&self) -> Result<Config, Failure> {
         let said = Said { vehicle: Some(self.preset), mass_kg: Some(self.mass_kg), ..Said::default() };
+        Ok(said.settings()?.0)
+    }
+
+    /// The settings with which their mean is heard, without the given mass.
+    pub(super) fn mean_config(&self) -> Result<Config, Failure> {
+        let said = Said { vehicle: Some(self.preset), mean_only: true, ..Said::default() };
         Ok(said.settings()?.0)
     }
 
@@ -233,6 +241,8 @@ pub(crate) struct Heard {
     pub(crate) names_nats: Option<f64>,
     /// A rotor of another vehicle that fits the sound far better.
     pub(crate) better: Option<OtherRotor>,
+    /// Where the mass of the vehicle means another hover speed than that of the flight.
+    pub(crate) other_hover: Option<OtherHover>,
 }
 
 impl Heard {
@@ -255,7 +265,6 @@ pub(crate) fn fit_of(
     hearing: Hearing,
     progress: &Progress,
 ) -> Result<Heard, Failure> {
-    let start = vehicle.start();
     let stopped = |stop: GreyBoxStop| {
         let what = match stop {
             GreyBoxStop::NotConverged => {
@@ -284,6 +293,7 @@ pub(crate) fn fit_of(
     match &files.recording {
         None => {
             let observations = logged_observations(flown, files)?;
+            let Start { model: start, other_hover } = Start::near(vehicle, mean_of(&observations));
             let fit = grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default());
             // a log that is too short is told first
             if matches!(fit, Ok(_) | Err(GreyBoxStop::NotConverged)) {
@@ -295,9 +305,11 @@ pub(crate) fn fit_of(
                 let what = "the rotor speeds of this log do not change, so no model can be found";
                 return Err(Failure::failed(what, FLY_DOUBLETS, &files.log));
             }
-            Ok(Heard { fit, observations, names_nats: None, better: None })
+            Ok(Heard { fit, observations, names_nats: None, better: None, other_hover })
         }
         Some(recording) => {
+            let mean = heard_mean(recording, vehicle, hearing, progress)?;
+            let Start { model: start, other_hover } = Start::near(vehicle, mean);
             let lines = heard_lines(recording, flown, &start, vehicle, hearing, progress)?;
             flown.require_doublets(&files.log)?;
             if !flown.align(&lines, &start) {
@@ -306,7 +318,7 @@ pub(crate) fn fit_of(
             let better = better_rotor(recording, &vehicle.config()?, hearing, progress)?;
             let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).map_err(stopped)?;
             let SoundFit { fit, observations, names_nats } = heard;
-            Ok(Heard { fit, observations, names_nats: Some(names_nats), better })
+            Ok(Heard { fit, observations, names_nats: Some(names_nats), better, other_hover })
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod flight;
 mod scenario;
+mod start;
 
 pub(crate) use flight::{FlightFiles, FlownLog, GreyBoxVehicle, Heard, Speeds, fit_of, speeds_of};
 pub(crate) use scenario::{scenario_file, scenario_toml};
@@ -67,13 +68,17 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     if let (Some(place), Some(kind)) = (&arguments.figure, kind) {
         let own = heard.speeds(&flown);
         let drawn = checked_speeds.as_ref().unwrap_or(&own);
-        let drawn =
-            DrawnSpeeds { observations: &drawn.observations, prediction: &drawn.prediction, places: record.places };
+        let drawn = DrawnSpeeds {
+            observations: &drawn.observations,
+            prediction: &drawn.prediction,
+            source: if other.as_ref().unwrap_or(&files).recording.is_some() { "heard" } else { "logged" },
+            places: record.places,
+        };
         let figure = grey_box_figure(&drawn).map_err(Failure::internal)?;
         outputs.write(place, kind.bytes(figure, DOTS_PER_INCH)?)?;
         terminal.say(&written(place));
     }
-    Ok(if losses.is_empty() { Ending::Done } else { Ending::Incomplete })
+    Ok(if losses.is_empty() && heard.other_hover.is_none() { Ending::Done } else { Ending::Incomplete })
 }
 
 /// A flight that was not used for the fit.
@@ -106,6 +111,7 @@ pub(crate) fn record_of(
         fitted: checked(&heard.observations, &heard.fit.prediction(&flown.inputs)),
         log_moved_s: flown.moved_s,
         better: heard.better,
+        other_hover: heard.other_hover,
         other_flight: other.map(|OtherFlight { files, speeds, moved_s }| CheckedFlight {
             recording: files.recording_name(),
             log: files.log_name(),

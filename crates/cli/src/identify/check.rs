@@ -70,14 +70,21 @@ fn of_load<'a>(jobs: &'a [LoadJob], load: &'a str) -> impl Iterator<Item = &'a J
 
 fn planned(job: &Job, hearing: Hearing) -> PlannedRecording {
     let opened = job.open(hearing);
-    let sound = opened.map_err(|error| error.to_string()).map(|recording| {
+    let sound = opened.map_err(|error| error.to_string()).and_then(|recording| {
         let info = recording.info();
-        PlannedSound {
+        let (from_s, ends_s) =
+            (job.config.span.from_s, info.declared_duration_s.map(|length_s| info.start_s + length_s));
+        if let Some((from_s, ends_s)) = from_s.zip(ends_s).filter(|(from_s, ends_s)| from_s >= ends_s) {
+            return Err(format!(
+                "it ends at {ends_s:.1} s, before the chosen part begins at {from_s} s; correct from_s under [[load]]"
+            ));
+        }
+        Ok(PlannedSound {
             length_s: info.declared_duration_s,
             sample_rate_hz: info.sample_rate_hz,
             channel_count: info.channel_count,
             codec: info.codec.clone(),
-        }
+        })
     });
     PlannedRecording { file: job.name.clone(), sound }
 }

@@ -26,7 +26,7 @@ use crate::typed::typed_command;
 use hovertone::experiment::Experiment;
 use hovertone::speed::Method;
 use hovertone::thrust::ThrustWarning;
-use hovertone_report::{InputRecord, Notice, SpeedRecord, printable, results_json};
+use hovertone_report::{InputRecord, Notice, SpeedRecord, Wording, printable, results_json};
 use hovertone_workflow::{ReportExtras, TipsTooFast, Titles};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
@@ -37,6 +37,7 @@ pub(crate) struct Identified {
     /// The recordings, which are read again for their pictures.
     jobs: Vec<Job>,
     hearing: Hearing,
+    wording: Wording,
 }
 
 /// Identifies the experiment and prints warnings, the tables where they are wanted, and the lines to quote.
@@ -186,7 +187,7 @@ pub(crate) fn identify(
         hint: contradiction.hint(),
         path: Some(path),
     })?;
-    Ok(Identified { identified, jobs, hearing })
+    Ok(Identified { identified, jobs, hearing, wording })
 }
 
 /// What belongs to a recording beside its job.
@@ -215,7 +216,8 @@ impl Identified {
     pub(crate) fn say_notes(&self, terminal: &mut Terminal) {
         terminal.warning_count(self.warning_count());
         for warning in self.warnings() {
-            terminal.warning(&Notice::from(warning), "");
+            let Notice { text, hint, .. } = Notice::from(warning);
+            terminal.warning(&Notice::new(text, self.wording.of(&hint)), "");
         }
         terminal.notes(&self.records());
     }

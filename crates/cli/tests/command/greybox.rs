@@ -57,6 +57,18 @@ fn another_vehicle_and_exchanged_axes_are_said() {
     let words =
         ["the model of the vehicle \"crazyflie\" could not be fitted to this flight", "check --vehicle and --log-axes"];
     refused_with(&["greybox", &log, "--vehicle", "crazyflie"], &words);
+    // the mass tells another hover, but the speeds of the flight are what they are
+    let hover = |more: &[&str], ending: i32| {
+        let run = hovertone(&[&["greybox", &log, "--vehicle", "ardrone", "--json"], more].concat()).ends_with(ending);
+        (parameter(&run.json_lines()[0], "hover_1_rad_s")["value"].as_f64().unwrap(), run.stderr)
+    };
+    let (right, _) = hover(&[], 0);
+    let (heavy, said) = hover(&["--mass-kg", "1.2"], 3);
+    assert!(
+        said.contains("with this mass the vehicle would hover at 10") && said.contains("check --mass-kg"),
+        "{said}"
+    );
+    assert!((heavy / right - 1.0).abs() < 1e-4 && right > 300.0, "{right} {heavy}");
     let frd = ["greybox", &log, "--vehicle", "ardrone", "--log-axes", "frd"];
     let said = hovertone(&frd).ends_with(0).stderr;
     assert!(said.contains("k_p of pitch and yaw are negative") && said.contains("check --log-axes"), "{said}");
