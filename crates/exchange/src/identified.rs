@@ -257,8 +257,8 @@ fn doubts(results: &Value) -> Vec<Doubt> {
     lines.into_iter().flatten().filter_map(Value::as_str).map(Doubt::from_line).collect()
 }
 
-/// The method, and in how many recordings the rotors were heard in which way, where several were sought: "rotors separated in 9 recordings, heard as a
-/// group in 6".
+/// The method, and in how many recordings the rotors were heard in which way, where several were sought: "rotors separated in 9 recordings,
+/// heard as a group in 6".
 fn method_in_words(method: &str, results: &Value) -> String {
     let count = |way: &str| results.pointer(&format!("/rotors_heard/{way}")).and_then(Value::as_u64).unwrap_or(0);
     let ways = [
