@@ -89,13 +89,13 @@ fn a_recording_under_the_wrong_load_is_named() {
     let wrong = with(&[&heavy, "--mass", "462g", &other]);
     assert!(wrong.stderr.contains("means 12 % more thrust than in the other recordings"), "{}", wrong.stderr);
     assert!(
-        wrong.stderr.contains("check that each recording is under the right [[load]]")
+        wrong.stderr.contains("check that each recording is after the right --mass")
             && !wrong.stderr.contains("times the smallest"),
         "{}",
         wrong.stderr
     );
     let right = with(&["--mass", "462g", &heavy, &other]);
-    assert!(!right.stderr.contains("under the right"), "{}", right.stderr);
+    assert!(!right.stderr.contains("the right --mass"), "{}", right.stderr);
 }
 
 #[test]
