@@ -1,6 +1,6 @@
 //! What a person says of a vehicle, against what is known of it and what can fly.
 
-use crate::{GRAMS_FACTOR, Gear, Order, RotorSpeed, SOUND_M_S};
+use crate::{Gear, KNOWN_MASS_SHARES, Order, RotorSpeed, SOUND_M_S};
 use std::f64::consts::PI;
 
 /// Largest Mach number of the blade tips of a multirotor in hover. Tips are kept slower for the sake of noise and efficiency. *Physics.*
@@ -176,7 +176,7 @@ impl Contradiction {
                  of rotors"
                     .to_owned()
             }
-            Self::Mass { known_kg, said_kg, .. } if GRAMS_FACTOR.contains(&(said_kg / known_kg)) => {
+            Self::Mass { known_kg, said_kg, .. } if KNOWN_MASS_SHARES.contains(&(said_kg / 1e3 / known_kg)) => {
                 format!("masses are in kilograms: for {said_kg} g write {}", said_kg / 1e3)
             }
             Self::Mass { .. } => "check the mass (in kilograms) and the name of the vehicle".to_owned(),

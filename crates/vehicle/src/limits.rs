@@ -31,7 +31,7 @@ pub fn are_masses_of_one_vehicle(given_kg: f64, known_kg: f64) -> bool {
 pub const KNOWN_MASS_SHARES: RangeInclusive<f64> = 0.8..=3.0;
 
 /// Ratios of a given to an expected mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
-pub const GRAMS_FACTOR: RangeInclusive<f64> = 500.0..=5_000.0;
+pub const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
 
 /// Largest mass that is accepted where neither a unit nor a diameter bears it out, kg: a larger number was read in grams. *Decision.*
 pub const MASS_ALONE_KG_MAX: f64 = 50.0;

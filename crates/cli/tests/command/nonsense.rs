@@ -34,6 +34,9 @@ fn a_mass_in_grams_is_a_slip_that_is_named() {
         let flown = ["a.wav", "--vehicle", "ardrone", "--mass-kg", "413"];
         refused_with(&[command, &flown].concat(), &["mass_kg = 413", "weighs 0.413 kg", "for 413 g write 0.413"]);
     }
+    // grams with their unit of a far heavier vehicle are no slip of the unit
+    let other = ["speed", "a.wav", "--vehicle", "crazyflie", "--mass-kg", "4130g"];
+    refused_with(&other, &["mass_kg = 4.13", "check the mass (in kilograms) and the name of the vehicle"]);
     let plan = ["fit", "--plan", "--mass-kg", "0.413", "--added-mass-kg"];
     refused_with(&[&plan[..], &["31"]].concat(), &["added_mass_kg = 31", "31 g are 0.031"]);
     refused_with(&[&plan[..], &["-0.1"]].concat(), &["added_mass_kg = -0.1", "above 0"]);
