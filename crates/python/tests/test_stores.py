@@ -134,7 +134,7 @@ def test_what_is_not_there_is_one_clear_line(bucket, program):
     for words, code, told in [
         ([f"s3://{BUCKET}/nothing"], 1, "there are no recordings at this address"),
         (["s3://no-such-bucket/archive"], 1, "nothing is at this address"),
-        (["az://container/archive"], 1, "the environment variables of the store cannot be used: Account must be specified"),
+        (["az://container/archive"], 1, "an environment variable of the store is missing, or has a wrong value: Account must be specified"),
         (["ftp://host/archive"], 2, "this is no address in a store"),
         (["s3://"], 2, "names no bucket"),
         (["https://name:word@host/a.wav"], 2, "an address may not contain a password"),
