@@ -151,7 +151,7 @@ fn change(
     if updated.changes.is_empty() && arguments.output.is_none() {
         terminal
             .say(&format!("nothing to change: {} has this constant already", printable(&model.display().to_string())));
-        return Ok(ending_of(rotor));
+        return Ok(Ending::Done);
     }
     match &arguments.output {
         Some(output) => {
@@ -183,7 +183,7 @@ fn change(
             "",
         );
     }
-    Ok(ending_of(rotor))
+    Ok(Ending::Done)
 }
 
 /// That comments still have the old number; `None` without such lines.

@@ -78,9 +78,12 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         of_model.map_err(|error| Failure::usage(error.to_string(), CHECK_MODEL))?;
     }
     let foreign = tone_of_constant.and_then(|heard| foreign_speed(&records, heard, &arguments.tone));
-    let is_constant_doubtful = results.as_ref().is_some_and(|rotor| rotor.forbids_use);
     let is_sound_doubtful =
         foreign.is_some() || records.iter().any(|record| record.contradiction().is_some() && record.speed().is_some());
+    let doubt = match is_sound_doubtful {
+        true => Some(DOUBTFUL_MASS),
+        false => results.as_ref().filter(|rotor| rotor.forbids_use).map(|_| DOUBTFUL_CONSTANT),
+    };
     let of_mass = weighed.iter().filter_map(WeighedHover::warning).map(|warning| Notice::from(&warning));
     let warnings: Vec<Notice> = foreign.into_iter().chain(of_mass).collect();
     let about: Vec<&SpeedRecord> = records.iter().collect();
@@ -89,17 +92,10 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         let document = weighed_json(weighed.as_ref(), &warnings, &records).map_err(Failure::internal)?;
         terminal.data(&document)?;
     } else {
-        let text = weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), weighed_text);
-        let doubt = match (is_sound_doubtful, is_constant_doubtful) {
-            _ if weighed.is_none() => "",
-            (true, _) => DOUBTFUL_MASS,
-            (false, true) => DOUBTFUL_CONSTANT,
-            (false, false) => "",
-        };
-        terminal.text(&format!("{doubt}{text}"))?;
+        let said = |weighed: &WeighedHover| format!("{}{}", doubt.unwrap_or_default(), weighed_text(weighed));
+        terminal.text(&weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), said))?;
     }
-    let is_doubtful = is_sound_doubtful || is_constant_doubtful;
-    Ok(ending_of(&records).max(if is_doubtful { Ending::Incomplete } else { Ending::Done }))
+    Ok(ending_of(&records).max(if doubt.is_some() { Ending::Incomplete } else { Ending::Done }))
 }
 
 /// Refuses recordings of different loads: their mean mass is that of none.

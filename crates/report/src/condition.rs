@@ -7,6 +7,8 @@ use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_analysis::{RotorCondition, ShaftLine};
 
+const WITHOUT_BLADES: &str = "not known: give the number of blades with --blades N";
+
 /// The lines of all rotors, each relative to its own blade pass; `None` where no recording has them.
 pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<String> {
     let mut table = TextTable::new(vec![
@@ -27,7 +29,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
         }
         let why_none = match () {
             () if !record.rotors().is_empty() => "",
-            () if !are_blades_known => "not known: give the number of blades with --blades N",
+            () if !are_blades_known => WITHOUT_BLADES,
             () if record.is_one_rotor() => "not known: the tone of the blades is too faint, or never heard for 4 s",
             () => "not known: the rotors could not be separated; if one rotor turns, give --rotors 1",
         };
@@ -42,7 +44,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
                         "not known: another rotor sounds too near to the tone of its blades".to_owned(),
                     );
                 }
-                None => table.push_words(name, "not known: give the number of blades with --blades N".to_owned()),
+                None => table.push_words(name, WITHOUT_BLADES.to_owned()),
             }
         }
     }

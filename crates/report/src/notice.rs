@@ -1,5 +1,6 @@
 //! A warning as text: the problem and the advice.
 
+use crate::wording::Wording;
 use hovertone_thrust::ThrustWarning;
 use serde::{Serialize, Serializer};
 use std::fmt;
@@ -37,6 +38,11 @@ impl Notice {
     /// The same, of a kind.
     pub fn of_kind(self, kind: NoticeKind) -> Self {
         Self { kind, ..self }
+    }
+
+    /// The same, with its advice in the words of a command.
+    pub fn worded(self, wording: Wording) -> Self {
+        Self { hint: wording.of(&self.hint), ..self }
     }
 }
 

@@ -119,9 +119,9 @@ pub struct SpeedRecord {
 impl SpeedRecord {
     /// The same record, with all advice in the words of a command.
     #[must_use]
-    pub fn worded(mut self, wording: Wording) -> Self {
-        self.notices.iter_mut().for_each(|notice| notice.hint = wording.of(&notice.hint));
-        Self { wording, ..self }
+    pub fn worded(self, wording: Wording) -> Self {
+        let notices = self.notices.into_iter().map(|notice| notice.worded(wording)).collect();
+        Self { wording, notices, ..self }
     }
 
     /// The analysis, where the file could be read.

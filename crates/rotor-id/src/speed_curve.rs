@@ -17,7 +17,8 @@ pub(crate) struct SpeedCurve {
     excess_rad2_s: Vec<f64>,
     /// Number of the stretch between gaps in which each point lies, from 0.
     stretch: Vec<usize>,
-    mean_rad_s: f64,
+    /// Mean over the points.
+    pub(crate) mean_rad_s: f64,
     /// First point at or after the time of the last call of [`SpeedCurve::turns_at`].
     next: usize,
 }

@@ -216,8 +216,7 @@ impl Identified {
     pub(crate) fn say_notes(&self, terminal: &mut Terminal) {
         terminal.warning_count(self.warning_count());
         for warning in self.warnings() {
-            let Notice { text, hint, .. } = Notice::from(warning);
-            terminal.warning(&Notice::new(text, self.wording.of(&hint)), "");
+            terminal.warning(&Notice::from(warning).worded(self.wording), "");
         }
         terminal.notes(&self.records());
     }

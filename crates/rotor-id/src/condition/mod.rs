@@ -14,8 +14,7 @@ use hovertone_analysis::{Outcome, RotorCondition, ShaftLine, SpeedAnalysis, Trac
 use hovertone_rotor_speed::{ToneConfig, blades_known};
 use hovertone_signal::SignalError;
 use hovertone_signal::passes::{Passes, StretchListener};
-use hovertone_signal::statistics::mean;
-use std::f64::consts::LN_10;
+use std::f64::consts::{LN_10, TAU};
 
 /// Length of a block, in s: separates the shaft lines of rotors half a turn per second apart, and a hover of ten seconds has two
 /// blocks. A shorter stretch is left out. *Decision.*
@@ -88,17 +87,13 @@ struct ConditionListener {
 
 impl ConditionListener {
     fn new(sample_rate_hz: f64, tracks: &[&[TrackPoint]], blades: u32) -> Self {
-        let mean_rev_s = |track: &[TrackPoint]| {
-            let speeds: Vec<f64> =
-                track.iter().map(|point| point.speed_rev_s).filter(|rev_s| rev_s.is_finite()).collect();
-            mean(&speeds).unwrap_or(0.0)
-        };
-        let fastest_rev_s = tracks.iter().map(|track| mean_rev_s(track)).fold(0.0, f64::max);
+        let curves: Vec<SpeedCurve> = tracks.iter().map(|track| SpeedCurve::through(track)).collect();
+        let fastest_rev_s = curves.iter().map(|curve| curve.mean_rad_s / TAU).fold(0.0, f64::max);
         let below_nyquist = (SAMPLE_RATE_SHARE * sample_rate_hz / fastest_rev_s.max(f64::MIN_POSITIVE)) as u32;
         Self {
             sample_rate_hz,
             blades,
-            curves: tracks.iter().map(|track| SpeedCurve::through(track)).collect(),
+            curves,
             order_max: (BLADE_PASS_LINES * blades).min(below_nyquist),
             next_s: 0.0,
             block: None,
