@@ -134,8 +134,18 @@ impl RowSink for Survey {
 }
 
 impl Watched {
+    #[inline]
     fn take(&mut self, value: f64) {
         let value = if self.is_speed { value.abs() } else { value };
+        let is_inside = self.range.low <= value && value <= self.range.high;
+        if !is_inside {
+            self.widen(value);
+        }
+    }
+
+    /// Widens the range by a value outside. Most values lie inside.
+    #[cold]
+    fn widen(&mut self, value: f64) {
         if value.is_finite() && !(self.is_speed && value == 0.0) {
             let ValueRange { low, high } = self.range;
             self.range = ValueRange { low: low.min(value), high: high.max(value) };

@@ -2,6 +2,10 @@
 
 /// Largest number of values in a frame.
 pub(super) const FIELDS_MAX: usize = 256;
+/// Numbers of one byte that are decoded at once.
+const NUMBERS_AT_ONCE: usize = 4;
+/// The bit of each of their bytes that says that another byte follows.
+const LONG_NUMBERS: u32 = 0x8080_8080;
 
 /// A place in the bytes of a frame.
 #[derive(Clone, Copy)]
@@ -54,8 +58,18 @@ impl<'a> Cursor<'a> {
     /// The same for numbers with a sign: 0, −1, 1, −2, …
     #[inline]
     pub(super) fn signed(&mut self) -> Option<i32> {
-        let value = self.unsigned()?;
-        Some((value >> 1).cast_signed() ^ -(value & 1).cast_signed())
+        self.unsigned().map(with_folded_sign)
+    }
+
+    /// The next bytes, if each of them is a number; `None` where a number is longer, or where the bytes end.
+    #[inline]
+    fn bytes_of_one_number_each(&mut self) -> Option<[u8; NUMBERS_AT_ONCE]> {
+        let bytes = *self.bytes.get(self.at..)?.first_chunk()?;
+        let has_long = u32::from_le_bytes(bytes) & LONG_NUMBERS != 0;
+        (!has_long).then(|| {
+            self.at += NUMBERS_AT_ONCE;
+            bytes
+        })
     }
 
     /// Bytes of a number, the lowest first, with its sign.
@@ -68,6 +82,12 @@ impl<'a> Cursor<'a> {
     }
 }
 
+/// The number that was written as 0, −1, 1, −2, …
+#[inline]
+fn with_folded_sign(value: u32) -> i32 {
+    (value >> 1).cast_signed() ^ -(value & 1).cast_signed()
+}
+
 /// A number of `bits` bits with its sign.
 fn with_sign(value: u32, bits: u32) -> i32 {
     let unused_bits = 32 - bits;
@@ -77,7 +97,10 @@ fn with_sign(value: u32, bits: u32) -> i32 {
 /// How one or several values are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Encoding {
-    Signed,
+    /// Numbers with a sign, one after the other.
+    Signed {
+        count: usize,
+    },
     Unsigned,
     /// The negative of a number of 14 bits.
     Negative14,
@@ -111,11 +134,13 @@ impl FrameLayout {
         let mut at = 0;
         while let Some(&number) = numbers.get(at) {
             let (encoding, count) = match number {
-                0 => (Encoding::Signed, 1),
+                0 => match numbers[at..].iter().take_while(|next| **next == 0).count() {
+                    count => (Encoding::Signed { count }, count),
+                },
                 1 => (Encoding::Unsigned, 1),
                 3 => (Encoding::Negative14, 1),
                 6 => match numbers[at..].iter().take(8).take_while(|next| **next == 6).count() {
-                    1 => (Encoding::Signed, 1),
+                    1 => (Encoding::Signed { count: 1 }, 1),
                     count => (Encoding::Nonzero { count }, count),
                 },
                 7 => (Encoding::Three, 3),
@@ -145,13 +170,13 @@ impl FrameLayout {
         let mut at = 0;
         for encoding in &self.encodings {
             let value = match *encoding {
-                Encoding::Signed => cursor.signed()?,
                 Encoding::Unsigned => cursor.unsigned()?.cast_signed(),
                 Encoding::Nothing => 0,
                 Encoding::Negative14 => -with_sign(cursor.unsigned()? & 0x3fff, 14),
                 group => {
                     let room = into.get_mut(at..)?;
                     at += match group {
+                        Encoding::Signed { count } => several_signed(&mut cursor, room.get_mut(..count)?)?,
                         Encoding::Nonzero { count } => nonzero(&mut cursor, room.get_mut(..count)?)?,
                         Encoding::Four => put(room, four(&mut cursor)?),
                         _ => put(room, three(&mut cursor, group == Encoding::ThreeOfOwnWidth)?),
@@ -173,6 +198,20 @@ fn put<const COUNT: usize>(room: &mut [i32], values: [i32; COUNT]) -> usize {
         None => room.iter_mut().zip(values).for_each(|(place, value)| *place = value),
     }
     COUNT
+}
+
+/// Numbers with a sign. Most have one byte each: then four bytes are four numbers.
+fn several_signed(cursor: &mut Cursor, room: &mut [i32]) -> Option<usize> {
+    let count = room.len();
+    let (fours, rest) = room.as_chunks_mut::<NUMBERS_AT_ONCE>();
+    for four in fours {
+        match cursor.bytes_of_one_number_each() {
+            Some(bytes) => *four = bytes.map(|byte| with_folded_sign(u32::from(byte))),
+            None => four.iter_mut().try_for_each(|place| cursor.signed().map(|value| *place = value))?,
+        }
+    }
+    rest.iter_mut().try_for_each(|place| cursor.signed().map(|value| *place = value))?;
+    Some(count)
 }
 
 fn nonzero(cursor: &mut Cursor, room: &mut [i32]) -> Option<usize> {
