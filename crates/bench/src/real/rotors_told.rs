@@ -23,6 +23,8 @@ pub(super) struct ExactRotors {
     pub(super) is_within_2u: bool,
     /// Is each rotor told, and no other?
     pub(super) is_each_told: bool,
+    /// Are more rotors told than turn?
+    pub(super) are_too_many: bool,
     /// Are the means of no two rotors close to each other?
     pub(super) are_apart: bool,
     /// Of the rotors that are told, where all are: those within twice their uncertainty.
@@ -62,6 +64,7 @@ impl ExactRotors {
             is_mean_square_told: is_told(square, exact.mean_square_rad2_s2),
             is_within_2u: (speed_rev_s - exact.mean_rev_s()).abs() <= 2.0 * std_rev_s,
             is_each_told: are_all && pairs().all(|(rotor, truth)| is_told(rotor.speed_rev_s, *truth)),
+            are_too_many: told.len() > truth.len(),
             are_apart: truth.windows(2).all(|pair| pair[1] / pair[0] - 1.0 >= APART_SHARE),
             rotors_within_2u: pairs().filter(is_within).count(),
             rotors_told: pairs().count(),
@@ -120,7 +123,7 @@ mod tests {
             (ExactRotors::of(&expected, answer).unwrap(), RotorCount::of(&truth, &expected, answer))
         };
         let (exact, count) = of(&answer(100.02, &[110.1, 90.1]));
-        assert!(exact.is_mean_told && exact.is_within_2u && exact.is_each_told);
+        assert!(exact.is_mean_told && exact.is_within_2u && exact.is_each_told && !exact.are_too_many);
         assert_eq!((exact.are_apart, exact.rotors_within_2u, exact.rotors_told), (true, 2, 2));
         // ⟨n⟩² is 1 % less than ⟨n²⟩ here
         assert!(!exact.is_mean_square_told);
@@ -128,6 +131,7 @@ mod tests {
         let square = std::f64::consts::TAU.powi(2) * (8100.0 + 12_100.0) / 2.0;
         let (exact, count) = of(&Answer { mean_square_rad2_s2: Some(square), ..answer(100.2, &[110.1, 92.0, 130.0]) });
         assert!(exact.is_mean_square_told && exact.is_mean_told && !exact.is_within_2u && !exact.is_each_told);
+        assert!(exact.are_too_many);
         assert_eq!(count, Some(RotorCount { good: 1, told: 3, outside: 1 }));
         assert_eq!(of(&answer(100.0, &[])).1, None);
     }

@@ -58,11 +58,21 @@ pub(super) fn add_exact_rotors(document: &mut Document, rows: &[Row]) {
     }
     document.paragraph(
         "Four rotors against their exact truth over the analysed stretch: answers whose mean, mean square, or each rotor is within 0.3 %, and \
-         answers whose mean is within 2 u. Apart: each rotor is within 0.3 %, of the answers for rotors whose means are all at least 0.9 % \
+         answers whose mean is within 2 u. Too many: more rotors are told than turn. Apart: each rotor is within 0.3 %, of the answers for rotors whose means are all at least 0.9 % \
          apart. Rotors: those within 2 u of their own, of all in answers with four. Most clips with closer \
          rotors hold a motor and the same recording backwards. These two cross, and their lines are alike: which is which cannot be heard.",
     );
-    let heads = ["mode", "answers", "mean", "mean square", "within 2 u", "each rotor", "apart", "rotors within 2 u"];
+    let heads = [
+        "mode",
+        "answers",
+        "mean",
+        "mean square",
+        "within 2 u",
+        "each rotor",
+        "too many",
+        "apart",
+        "rotors within 2 u",
+    ];
     let lines: Vec<Vec<String>> = modes
         .into_iter()
         .map(|(mode, all)| {
@@ -75,6 +85,7 @@ pub(super) fn add_exact_rotors(document: &mut Document, rows: &[Row]) {
                 count(&|exact| exact.is_mean_square_told),
                 count(&|exact| exact.is_within_2u),
                 count(&|exact| exact.is_each_told),
+                count(&|exact| exact.are_too_many),
                 format!(
                     "{} of {}",
                     count(&|exact| exact.are_apart && exact.is_each_told),

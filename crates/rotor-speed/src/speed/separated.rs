@@ -60,6 +60,11 @@ impl RotorTracks {
         !self.are_one_group && self.resolved(None).count() >= 2
     }
 
+    /// How many are separated from the others.
+    pub(crate) fn resolved_count(&self) -> usize {
+        self.resolved(None).count()
+    }
+
     /// Whether more than half of them are resolved.
     fn are_mostly_resolved(&self) -> bool {
         2 * self.resolved(None).count() > self.rotors.len()

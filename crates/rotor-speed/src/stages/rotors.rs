@@ -12,8 +12,9 @@ use hovertone_vehicle::BLADES_MAX;
 use std::ops::RangeInclusive;
 
 /// The rotors whose own lines are heard. Where their number is not known and another is heard beside all of them, two more are looked for, in
-/// two more passes, and so on: tracks without a rotor would lie beside those of others. A multirotor has an even number of rotors, and those
-/// that are not told apart belong to it as well.
+/// two more passes, and so on: tracks without a rotor would lie beside those of others. They count only where each of them stands apart, because a
+/// track too many follows a rotor that another one follows already. Else the first ones stay, beside others of which nothing is known but that they
+/// may turn. A multirotor has an even number of rotors.
 pub(super) fn heard_rotors(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -39,7 +40,8 @@ pub(super) fn heard_rotors(
         let of_more = separated(passes, sought)?;
         leave_another = of_more.leave_another();
         let count = (rotors.heard_count() + 1).next_multiple_of(2);
-        rotors = if of_more.heard_count() > rotors.heard_count() { of_more } else { rotors.of_count(count) };
+        let is_each_apart = of_more.resolved_count() == sought.count as usize;
+        rotors = if is_each_apart { of_more } else { rotors.of_count(count) };
     }
     Ok(rotors)
 }
