@@ -134,9 +134,10 @@ impl FrameLayout {
         let mut at = 0;
         while let Some(&number) = numbers.get(at) {
             let (encoding, count) = match number {
-                0 => match numbers[at..].iter().take_while(|next| **next == 0).count() {
-                    count => (Encoding::Signed { count }, count),
-                },
+                0 => {
+                    let count = numbers[at..].iter().take_while(|next| **next == 0).count();
+                    (Encoding::Signed { count }, count)
+                }
                 1 => (Encoding::Unsigned, 1),
                 3 => (Encoding::Negative14, 1),
                 6 => match numbers[at..].iter().take(8).take_while(|next| **next == 6).count() {
