@@ -9,7 +9,7 @@ const NARROWER_BAND: &str =
 /// Which facts were given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GivenFacts {
-    /// A known vehicle, with its blades, its gear, its diameter and its mass.
+    /// A known vehicle, with its blades and its gear, its diameter and its mass.
     pub vehicle: bool,
     /// The blades.
     pub blades: bool,
@@ -17,9 +17,9 @@ pub struct GivenFacts {
     pub gear: bool,
     /// The order of the tone alone: of blades or of a gear.
     pub order: bool,
-    /// The diameter of the propellers.
+    /// The diameter of the propellers, where it is not that of the vehicle.
     pub diameter: bool,
-    /// The mass.
+    /// The mass, where it is not that of the vehicle.
     pub mass: bool,
     /// The band of the tone.
     pub band: bool,
@@ -35,8 +35,8 @@ impl GivenFacts {
             (self.blades && !self.vehicle, "the blades"),
             (self.gear && !self.vehicle, "the gear"),
             (self.order && !self.vehicle, "the order of the tone"),
-            (self.diameter && !self.vehicle, "the diameter"),
-            (self.mass && !self.vehicle, "the mass"),
+            (self.diameter, "the diameter"),
+            (self.mass, "the mass"),
             (self.band, "the band"),
         ];
         let given: Vec<&str> = facts.into_iter().filter(|(is_given, _)| *is_given).map(|(_, fact)| fact).collect();
@@ -45,6 +45,14 @@ impl GivenFacts {
             Some((only, [])) => (*only).to_owned(),
             Some((end, others)) => format!("{} {last} {end}", others.join(", ")),
         }
+    }
+
+    /// The facts that the number of blades alone replaces. A diameter and a mass may stay beside it.
+    pub fn replaced_by_blades(self) -> String {
+        let is_about_tone = self.vehicle || self.gear || self.order || self.band;
+        let beside = |is_given: bool| is_given && !is_about_tone;
+        let (diameter, mass) = (beside(self.diameter), beside(self.mass));
+        Self { blades: self.blades && !is_about_tone, diameter, mass, ..self }.in_words("and")
     }
 
     /// Advice that asks for a check of the number of blades, in words for the facts that were given: no gear is blamed that nobody gave.
@@ -115,9 +123,13 @@ mod tests {
             band: true,
             window: true,
         };
-        assert_eq!(all.in_words("and"), "the vehicle and the band");
+        assert_eq!(all.in_words("and"), "the vehicle, the diameter, the mass and the band");
+        assert_eq!(GivenFacts { diameter: false, mass: false, ..all }.in_words("and"), "the vehicle and the band");
         let alone = GivenFacts { blades: true, mass: true, band: true, ..nothing };
         assert_eq!(alone.in_words("or"), "the blades, the mass or the band");
+        assert_eq!(all.replaced_by_blades(), "the vehicle and the band");
+        assert_eq!(alone.replaced_by_blades(), "the band");
+        assert_eq!(GivenFacts { blades: true, ..nothing }.replaced_by_blades(), "the blades");
         let by_numbers = GivenFacts { diameter: true, mass: true, ..nothing };
         assert_eq!(by_numbers.in_words("and"), "the diameter and the mass");
     }

@@ -250,7 +250,7 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors are too many to name: the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{} separated in the sound, but {needed} are needed to name them", rotors_are(*tracks))
+                write!(f, "{} separated in the sound, but names need {needed} separated rotors", rotors_are(*tracks))
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(
@@ -271,7 +271,7 @@ impl fmt::Display for NotTold {
                 write!(f, "the log fits best at a clock offset of {offset_s:.2} s, at the edge of the searched range")
             }
             Self::NoStart => f.write_str(
-                "--spin-up changes nothing: the recording begins in the hover, so no motor is heard to start",
+                "the recording begins in the hover, so no motor is heard to start, and --spin-up changes nothing",
             ),
             Self::StartedTogether { apart_s } => {
                 write!(f, "two rotors start within {:.1} s of each other", apart_s.max(0.1))
@@ -300,12 +300,13 @@ impl fmt::Display for NotTold {
             Self::OtherChannels { channels, microphones } => {
                 write!(
                     f,
-                    "the recording has {channels} channels, but {microphones} microphones have a position: the two numbers must be \
-                equal"
+                    "the recording has {channels} channel{}, but {microphones} microphones have a position: the two \
+                    numbers must be equal",
+                    if *channels == 1 { "" } else { "s" }
                 )
             }
             Self::OtherPlaces { tracks, places } => {
-                write!(f, "{tracks} rotors were separated in the sound, but only {places} rotors have a place")
+                write!(f, "{tracks} rotors were separated in the sound, but only {places} of them have a place")
             }
             Self::NothingHeard { microphone } => {
                 write!(f, "microphone {microphone} does not hear the rotors for long enough")

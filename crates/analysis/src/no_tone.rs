@@ -63,7 +63,7 @@ impl NoTone {
     pub fn in_words(&self, given: GivenFacts) -> String {
         match self {
             Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
-                let in_place = format!("give --blades {blades} alone, in place of {}", given.in_words("and"));
+                let in_place = blades_in_place(*blades, given);
                 let may_turn = format!("with {blades} blades may turn at {speed_rev_s:.1} rev/s");
                 let not_heard = match only_rev_s {
                     Some((low, high)) if (*low..=*high).contains(speed_rev_s) => {
@@ -92,6 +92,15 @@ impl NoTone {
             ),
             other => other.to_string(),
         }
+    }
+}
+
+/// To give the blades that are heard: alone, where other facts than the blades are in their way.
+fn blades_in_place(blades: u32, given: GivenFacts) -> String {
+    let others = GivenFacts { blades: false, window: false, ..given };
+    match given.blades && others == GivenFacts::default() {
+        true => format!("give --blades {blades}"),
+        false => format!("give --blades {blades} alone, in place of {}", given.replaced_by_blades()),
     }
 }
 
@@ -180,6 +189,11 @@ mod tests {
             other.contains("give --blades 2 alone, in place of the vehicle and the band; if not, check the"),
             "{other}"
         );
+        let in_place = |given| blades_in_place(2, given);
+        let bladed = GivenFacts { blades: true, ..GivenFacts::default() };
+        assert_eq!(in_place(bladed), "give --blades 2");
+        let geared = GivenFacts { gear: true, ..bladed };
+        assert_eq!(in_place(geared), "give --blades 2 alone, in place of the gear");
         let nothing = NoTone::NoSeries { only_rev_s: Some((13.0, 120.0)), instead: None }.to_string();
         assert!(nothing.contains("check the given facts, or move the microphone nearer"), "{nothing}");
     }

@@ -122,7 +122,7 @@ fn shown(value: &Value) -> String {
             let entry = |(name, value): (&String, &Value)| format!("{name} {}", shown(value));
             entries.iter().map(entry).collect::<Vec<_>>().join(", ")
         }
-        Value::Null => "none".to_owned(),
+        Value::Null => "not given".to_owned(),
         Value::Array(values) => values.iter().map(shown).collect::<Vec<_>>().join(" "),
         Value::String(text) => text.clone(),
         other => other.to_string(),
@@ -161,7 +161,7 @@ mod tests {
         let here = BatchIdentity { inputs: vec!["A".to_owned(), "B".to_owned()], ..here };
         assert_eq!(
             there.differences(&here, ["there", "here"]).unwrap(),
-            "inputs: DIR there, A B here; channel: none there, 1 here; rotors: 4 there, 2 here"
+            "inputs: DIR there, A B here; channel: not given there, 1 here; rotors: 4 there, 2 here"
         );
         let there = identity(json!({"tone": {"blades": 2, "order": 2.0}, "search": {"known": {"blade_count": 2}}}));
         let here = identity(json!({"tone": {"blades": 3, "order": 3.0}, "search": {"known": {"blade_count": 3}}}));
@@ -171,6 +171,6 @@ mod tests {
         assert_eq!(there.differences(&here, ["there", "here"]).unwrap(), "order: 69.0 there, 2.0 here");
         let many = identity(json!({"a": 1, "b": 1, "c": 1, "d": 1, "e": 1, "f": 1}));
         let words = many.differences(&identity(json!({})), ["there", "here"]).unwrap();
-        assert!(words.ends_with("; d: 1 there, none here; and 2 more"), "{words}");
+        assert!(words.ends_with("; d: 1 there, not given here; and 2 more"), "{words}");
     }
 }

@@ -41,7 +41,7 @@ const KNOWN: [([&str; 2], &str); 18] = [
     (["--signals", "--json"], "--json already prints the names of all signals: leave --signals out"),
     (
         ["--output", "COMMAND"],
-        "-o writes the manual pages of all commands, COMMAND prints the page of one command: leave one of them out",
+        "-o writes the manual pages of all commands, and the name of a command prints its page: leave one of them out",
     ),
 ];
 
@@ -50,7 +50,17 @@ pub(crate) fn conflict_in_words(one: &str, other: &str, words: &[OsString]) -> S
     match [one, other].contains(&EXPERIMENT) && !has_experiment(words) {
         true if has_mass(words) => "a file without a mass before it counts as the experiment file".to_owned(),
         true => "the mass of the vehicle in the recording is missing".to_owned(),
-        false => format!("{one} cannot be used with {other}"),
+        false => format!("{} cannot be used with {}", in_words(one), in_words(other)),
+    }
+}
+
+/// A flag as it is typed; a place by what stands there.
+fn in_words(argument: &str) -> &str {
+    match argument {
+        EXPERIMENT => "an experiment file",
+        "TABLE.csv" => "a table",
+        "COMMAND" => "the name of a command",
+        flag => flag,
     }
 }
 
@@ -103,7 +113,7 @@ fn beside_experiment(flag: &str, words: &[OsString]) -> String {
             "write {key} under {table} in the experiment file instead; or leave the file out, and give --mass with recordings"
         ),
         None => "write the mass into the experiment file, as mass_kg under [vehicle] or as added_mass_kg under its \
-             [[load]]; or leave the file out"
+             [[load]]; or leave the file out, and give --mass with recordings"
             .to_owned(),
     }
 }

@@ -9,8 +9,8 @@ use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::thrust::ThrustCoefficients;
 use hovertone_exchange::{
-    ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
-    updated_model,
+    ChangedLine, IdentifiedRotor, ModelError, ResultsError, SimulatorFormat, export_text, identified_from_results,
+    model_from_text, updated_model,
 };
 use hovertone_report::{Notice, fixed, printable};
 use hovertone_vehicle::{check_diameter, check_positive, check_range};
@@ -36,13 +36,17 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
             None => Err(Failure::usage("neither --to nor --into is given", "see `hovertone export --help`")),
         };
     };
-    let text = export_text(&rotor, format)
-        .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
+    let text = export_text(&rotor, format).map_err(|error| {
+        let hint = match error {
+            ModelError::Needs { .. } => {
+                "for example `hovertone export results.json --to airsim --diameter-m 0.2 --air-density-kg-m3 1.2`"
+            }
+            _ => "see `hovertone export --help`",
+        };
+        Failure::usage(error.to_string(), hint)
+    })?;
     let why = Unused {
-        without_place: Notice::new(
-            format!("the format {} has no number for it", format.name()),
-            "leave the flag out, or choose another format with --to",
-        ),
+        without_place: &|given| no_place_in(format, given, &rotor),
         same: Notice::new("the results have this number already", "leave the flag out"),
     };
     say_unused(&rotor, arguments, &why, |rotor| export_text(rotor, format), terminal);
@@ -61,10 +65,29 @@ pub(crate) fn ending_of(rotor: &IdentifiedRotor) -> Ending {
     if rotor.forbids_use { Ending::Incomplete } else { Ending::Done }
 }
 
+/// A fact that a flag gives.
+struct Given {
+    flag: &'static str,
+    value: f64,
+    fact: Fact,
+}
+
+impl Given {
+    /// Whether the text of a format is another without this fact.
+    fn is_in(&self, format: SimulatorFormat, rotor: &IdentifiedRotor) -> bool {
+        let text_with = |value: Option<f64>| {
+            let mut other = rotor.clone();
+            *(self.fact)(&mut other) = value;
+            export_text(&other, format).ok()
+        };
+        text_with(Some(self.value)).is_some_and(|text| text_with(None).is_none_or(|without| without != text))
+    }
+}
+
 /// Why a given fact changes nothing.
-struct Unused {
+struct Unused<'a> {
     /// Where the text has no place for it.
-    without_place: Notice,
+    without_place: &'a dyn Fn(&Given) -> Notice,
     /// Where the text has this very number already.
     same: Notice,
 }
@@ -73,7 +96,7 @@ struct Unused {
 fn say_unused(
     rotor: &IdentifiedRotor,
     arguments: &ExportArguments,
-    why: &Unused,
+    why: &Unused<'_>,
     text_of: impl Fn(&IdentifiedRotor) -> Result<String, ModelError>,
     terminal: &mut Terminal,
 ) {
@@ -91,7 +114,10 @@ fn say_unused(
             text_of(&other).is_ok_and(|other| other == text)
         };
         if is_same_with(None) {
-            let why = if is_same_with(Some(0.5 * value)) { &why.without_place } else { &why.same };
+            let why = match is_same_with(Some(0.5 * value)) {
+                true => (why.without_place)(&Given { flag, value, fact }),
+                false => why.same.clone(),
+            };
             terminal.warning(&Notice::new(format!("{flag} changes nothing: {}", why.text), &why.hint), "");
         }
     }
@@ -116,6 +142,39 @@ fn density_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
     &mut rotor.air_density_kg_m3
 }
 
+/// Why a fact is not in the text of a format: C_T needs another fact too, or only other formats have a number for it.
+fn no_place_in(format: SimulatorFormat, given: &Given, rotor: &IdentifiedRotor) -> Notice {
+    let partner = match given.flag {
+        "--diameter-m" => Some(("--air-density-kg-m3", "the density of the air", density_of as Fact)),
+        "--air-density-kg-m3" => Some(("--diameter-m", "the diameter of the propellers", diameter_of as Fact)),
+        _ => None,
+    };
+    if let Some((flag, name, fact)) = partner {
+        let mut complete = rotor.clone();
+        fact(&mut complete).get_or_insert(1.0);
+        if given.is_in(format, &complete) {
+            let text = format!("the thrust coefficient C_T needs {name} too");
+            return Notice::new(text, format!("give {flag} too, or leave {} out", given.flag));
+        }
+    }
+    if given.flag == "--hover-command" && rotor.mass_kg.is_none() {
+        return Notice::new(
+            "the thrust in a hover needs the mass, and these results have no mass",
+            "leave the flag out",
+        );
+    }
+    let all = SimulatorFormat::ALL.into_iter().filter(|format| given.is_in(*format, rotor));
+    let names: Vec<&str> = all.map(SimulatorFormat::name).collect();
+    let hint = match names.split_last() {
+        None => "leave the flag out".to_owned(),
+        Some((only, [])) => format!("leave the flag out, or give --to {only}: this format has a number for it"),
+        Some((last, others)) => {
+            format!("leave the flag out, or choose a format with a number for it: --to {} or {last}", others.join(", "))
+        }
+    };
+    Notice::new(format!("the format {} has no number for it", format.name()), hint)
+}
+
 /// Changes the numbers of a model: in place, which is what was asked for, or into another file. Prints the difference.
 fn change(
     model: &Path,
@@ -132,7 +191,8 @@ fn change(
     if rotor.forbids_use {
         return Err(Failure::failed(
             "the warnings of these results say not to use their constant: nothing was written",
-            "correct what the warnings name, run `hovertone identify` again, and give its results",
+            "correct what the warnings name, then make the results again with `hovertone identify`, or with \
+             `hovertone fit --json`",
             &arguments.results,
         ));
     }
@@ -140,10 +200,9 @@ fn change(
     let before = model_from_text(&text).map_err(|error| model_failure(&error, model))?;
     let updated = updated_model(&text, rotor).map_err(|error| unchanged(&error, model, arguments))?;
     let why = Unused {
-        without_place: Notice::new(
-            "this model has no number for it, and --into adds no new numbers",
-            "leave the flag out",
-        ),
+        without_place: &|_| {
+            Notice::new("this model has no number for it, and --into adds no new numbers", "leave the flag out")
+        },
         same: Notice::new("this model has the same number already", "leave the flag out"),
     };
     say_unused(rotor, arguments, &why, |rotor| Ok(updated_model(&text, rotor)?.text), terminal);
@@ -296,7 +355,9 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
     identified_from_results(&text, group).map_err(|error| match error {
         _ if model_from_text(&text).is_ok() => Failure::Usage {
             what: "this is a model of a simulator, but results.json of `hovertone identify` is needed here".to_owned(),
-            hint: "give results.json here; `hovertone compare` takes the models after it".to_owned(),
+            hint: "give results.json first; the model comes after it for `hovertone compare`, and after --into for \
+                   `hovertone export`"
+                .to_owned(),
             path: Some(path.to_owned()),
         },
         ResultsError::NotJson(_) if names_loads(&text) => Failure::failed(
@@ -315,7 +376,8 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             path: Some(path.to_owned()),
         },
         _ => {
-            let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote";
+            let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote, or the output of \
+                        `hovertone fit --json`";
             Failure::failed(error.to_string(), hint, path)
         }
     })
@@ -326,8 +388,8 @@ fn refuse_number(path: &Path) -> Result<(), Failure> {
     let number = path.to_str().filter(|text| text.parse::<f64>().is_ok() && !path.exists());
     number.map_or(Ok(()), |number| {
         let hint = format!(
-            "to weigh with a number, give `hovertone weigh` the constant of the whole vehicle, as in --constant-n-s2 \
-             {number} --vehicle NAME"
+            "give the results.json that `hovertone identify` wrote; only `hovertone weigh` takes a number, the \
+             constant of the whole vehicle: --constant-n-s2 {number}"
         );
         Err(Failure::usage(format!("{number} is a number, but the file results.json is needed here"), hint))
     })

@@ -62,6 +62,9 @@ impl From<ConfigError> for Failure {
             ConfigError::EmptyBand { low_hz, high_hz } if low_hz > high_hz => {
                 format!("write the lower edge first: {high_hz}:{low_hz}")
             }
+            ConfigError::EmptyBand { low_hz, .. } => {
+                format!("write two different edges around the tone, such as {:.0}:{:.0}", 0.9 * low_hz, 1.1 * low_hz)
+            }
             ConfigError::OutOfRange { name, .. } => correct_number(name, &typed_words()),
             _ => see_help(&typed_words()),
         };
@@ -131,8 +134,8 @@ impl Failure {
                 "write into a folder of your own",
             ),
             io::ErrorKind::FileTooLarge => (
-                "this file becomes larger than the system allows: nothing was written".to_owned(),
-                "raise the limit (`ulimit -f unlimited`), or choose a place on another disk",
+                "this file becomes larger than the system allows: it was not written".to_owned(),
+                "choose a place on another disk, or raise the limit (`ulimit -f unlimited`)",
             ),
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => (
                 "the disk is full: this file was not written".to_owned(),

@@ -41,31 +41,50 @@ pub(crate) fn foreign_speed(records: &[SpeedRecord], heard: &HeardTone, typed: &
     Some(Notice::new(what, hint))
 }
 
-/// Where the facts are those of the constant and nobody typed them, advice to correct them, or to give others in their place, leads astray: the
+/// Where the facts are those of the constant, advice to correct them, or to give others in their place, leads astray: the
 /// recording is of another vehicle.
 pub(crate) fn advise_by_constant(record: &mut SpeedRecord, heard: &HeardTone, typed: &ToneArguments) {
-    if typed.vehicle.is_some() || !given(typed).is_empty() {
+    if typed.vehicle.is_some() {
         return;
     }
-    let [low, high] = range_rev_s(heard);
-    let not_heard = format!(
-        "no rotor is heard at {low:.0} to {high:.0} rev/s, the speeds of the rotors with which the constant was \
-        measured"
-    );
-    match no_series_of(record) {
-        _ if record.spoiled.is_some() => {}
-        Some(Some(OtherRotor { blades, speed_rev_s })) => {
-            record.spoiled = Some(format!(
-                "{not_heard}. But a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s: {OTHER_VEHICLE}"
-            ));
-        }
-        Some(None) => record.spoiled = Some(format!("{not_heard}; {OTHER_VEHICLE}, or move the microphone nearer")),
-        None => {}
+    if record.spoiled.is_none()
+        && let Some(instead) = no_series_of(record)
+    {
+        record.spoiled = why_not_heard(instead, range_rev_s(heard), &given(typed));
+    }
+    if !given(typed).is_empty() {
+        return;
     }
     if record.contradiction() == Some(Contradicted::ByAnotherRotor) {
         let is_advice = |notice: &&mut Notice| notice.kind == NoticeKind::AnotherRotorFits;
         record.notices.iter_mut().filter(is_advice).for_each(|notice| OTHER_VEHICLE.clone_into(&mut notice.hint));
     }
+}
+
+/// Why the rotors of a constant are not heard, and what to do. `None` where flags name the tone and no other rotor is heard.
+fn why_not_heard(instead: Option<OtherRotor>, [low, high]: [f64; 2], flags: &[&str]) -> Option<String> {
+    let not_heard = format!(
+        "no rotor is heard at {low:.0} to {high:.0} rev/s, the speeds of the rotors with which the constant was \
+        measured"
+    );
+    let Some(OtherRotor { blades, speed_rev_s }) = instead else {
+        return flags.is_empty().then(|| format!("{not_heard}; {OTHER_VEHICLE}, or move the microphone nearer"));
+    };
+    let may_turn = format!("a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s");
+    Some(match flags {
+        [] if (low..=high).contains(&speed_rev_s) => format!(
+            "the tone of the rotors with which the constant was measured is not heard, but {may_turn}; if this is \
+            another vehicle, {OTHER_VEHICLE}; if not, move the microphone nearer"
+        ),
+        [] => format!("{not_heard}. But {may_turn}: {OTHER_VEHICLE}"),
+        flags => {
+            let flags = flags.join(" and ");
+            format!(
+                "no rotor that fits {flags} is heard, but {may_turn}; leave {flags} out, because the results already \
+                say which tone to use; if there is still no speed, {OTHER_VEHICLE}"
+            )
+        }
+    })
 }
 
 /// The rotor that is heard in place of the expected one, if there is one; `None` where the expected one is not missing.
@@ -81,7 +100,7 @@ fn range_rev_s(heard: &HeardTone) -> [f64; 2] {
 }
 
 /// The flags that were typed of those that name a tone.
-fn given(typed: &ToneArguments) -> Vec<&'static str> {
+pub(crate) fn given(typed: &ToneArguments) -> Vec<&'static str> {
     let flags = [
         ("--blades", typed.blades.is_some()),
         ("--gear", typed.gear.is_some()),
@@ -89,4 +108,21 @@ fn given(typed: &ToneArguments) -> Vec<&'static str> {
         ("--band", typed.band.is_some()),
     ];
     flags.into_iter().filter_map(|(flag, is_given)| is_given.then_some(flag)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_speed_among_those_of_the_constant_is_not_denied() {
+        let at = |speed_rev_s| Some(OtherRotor { blades: 2, speed_rev_s });
+        let among = why_not_heard(at(60.0), [13.0, 120.0], &[]).unwrap();
+        assert!(!among.contains("no rotor is heard at 13 to 120") && among.contains("is not heard, but"), "{among}");
+        let beyond = why_not_heard(at(327.0), [13.0, 120.0], &[]).unwrap();
+        assert!(beyond.starts_with("no rotor is heard at 13 to 120 rev/s"), "{beyond}");
+        let in_band = why_not_heard(at(60.0), [13.0, 120.0], &["--band"]).unwrap();
+        assert!(in_band.contains("leave --band out") && !in_band.contains("give --blades"), "{in_band}");
+        assert_eq!(why_not_heard(None, [13.0, 120.0], &["--band"]), None);
+    }
 }

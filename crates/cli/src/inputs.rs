@@ -14,6 +14,8 @@ use std::sync::Mutex;
 pub(crate) const STDIN: &str = "stdin";
 /// Bytes per step of a copy. The first step shows the kind of the file.
 const CHUNK: usize = 1 << 20;
+/// What happened, where a text has an encoding of Windows.
+pub(crate) const IS_UTF16: &str = "this file is text in UTF-16, which hovertone does not read";
 /// Most bytes that are kept of stdin: a day of stereo sound in 16 bits, at 48 kHz.
 const STDIN_BYTES_MAX: u64 = 16_600_000_000;
 
@@ -67,7 +69,7 @@ pub(crate) fn read_text(path: &Path, what: &str) -> Result<String, Failure> {
 }
 
 /// Whether bytes are a text in UTF-16, with the mark of one at its beginning.
-fn is_utf16(content: &[u8]) -> bool {
+pub(crate) fn is_utf16(content: &[u8]) -> bool {
     let (pairs, rest) = content.as_chunks::<2>();
     let units = |unit: fn([u8; 2]) -> u16| char::decode_utf16(pairs.iter().skip(1).map(move |pair| unit(*pair)));
     let is_text = |unit: fn([u8; 2]) -> u16| {
@@ -84,13 +86,12 @@ fn is_utf16(content: &[u8]) -> bool {
 /// The failure of a file that should be text and is something else, such as a recording.
 pub(crate) fn is_no_text(what: &str, path: &Path, content: &[u8]) -> Failure {
     if is_utf16(content) {
-        let found = "this file is text in UTF-16, which hovertone does not read";
-        return Failure::failed(found, "save the file as UTF-8; in Excel, choose the file type \"CSV UTF-8\"", path);
+        return Failure::failed(IS_UTF16, "save the file as UTF-8; in Excel, choose the file type \"CSV UTF-8\"", path);
     }
     let found = format!("this file is not text, so it cannot be {what}");
     Failure::failed(
         found,
-        "check the names of the files and their sequence; `hovertone speed` hears recordings, `hovertone log` reads flight logs",
+        "give another file; `hovertone speed` hears recordings, and `hovertone log` reads flight logs",
         path,
     )
 }
@@ -131,7 +132,10 @@ pub(crate) fn recording_of_stdin() -> Result<PathBuf, Failure> {
             break;
         }
         if kept_bytes > STDIN_BYTES_MAX {
-            return Err(Failure::usage("stdin is longer than a day of sound", "give the recording as a file"));
+            return Err(Failure::usage(
+                "stdin sends more than 16.6 GB, as much as a day of stereo sound",
+                "give the recording as a file",
+            ));
         }
         file.write_all(&chunk).map_err(|error| cannot_keep(&error))?;
     }
@@ -148,8 +152,8 @@ fn refuse_no_sound(beginning: &[u8]) -> Result<(), Failure> {
     }
     let what =
         "stdin is not an audio or video file that hovertone can read: its first bytes match no known format".to_owned();
-    let hint = "send a recording, as in `hovertone speed - < hover.wav`; if only ffmpeg can read the format, give the \
-         recording as a file"
+    let hint = "send a recording, as in `hovertone speed - < hover.wav`; if only ffmpeg can read its format, give the \
+         name of the file in place of -"
         .to_owned();
     Err(Failure::Failed { what, hint, path: None })
 }
@@ -170,7 +174,7 @@ fn first_use(what: &str) -> Result<std::sync::MutexGuard<'static, Used>, Failure
         ));
     }
     if io::stdin().is_terminal() {
-        let hint = "send a file to stdin, as in `hovertone speed - < hover.wav`, or give the name of the file";
+        let hint = "write < and the name of a file after the command, or give the name of the file in place of -";
         return Err(Failure::usage(
             format!("{what} should come from stdin (-), but stdin is the keyboard of this terminal"),
             hint,

@@ -12,7 +12,7 @@ use hovertone::rotors::{
 use hovertone::speed::TrackPoint;
 use hovertone_logs::{ColumnNames, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
 use hovertone_report::{Notice, SpeedRecord};
-use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle};
+use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle, flight_presets};
 use std::path::Path;
 
 /// The meaning of the arguments.
@@ -92,14 +92,14 @@ fn logs_of(
                 return Err(Failure::usage(
                     "the log has the rates at which the vehicle turns, but the direction of their axes is not known: \
                      front and rear rotors could be swapped",
-                    "give --log-axes flu (x forward, y left, z up) or frd (y right, z down: PX4, ArduPilot)",
+                    "give --log-axes flu (x forward, y left, z up) or --log-axes frd (x forward, y right, z down, as in \
+                     PX4 and ArduPilot)",
                 ));
             }
             (_, None) => {
                 return Err(Failure::usage(
                     "the log has the rates at which the vehicle turns, but the places of the rotors are not known",
-                    "give --layout x or --layout plus, or --vehicle with a vehicle whose layout is known (`hovertone \
-                     vehicles` lists vehicles)",
+                    format!("give --layout x or --layout plus, or --vehicle with {}", with_known_frame()),
                 ));
             }
         }
@@ -152,6 +152,11 @@ fn contradicted(of_format: &str, said: &str) -> Failure {
         ),
         "leave --log-axes out: the flag is only for CSV logs",
     )
+}
+
+/// "one of ardrone, crazyflie": the vehicles whose rotors have known places.
+pub(crate) fn with_known_frame() -> String {
+    format!("one of {}", flight_presets().iter().map(|vehicle| vehicle.id).collect::<Vec<_>>().join(", "))
 }
 
 /// Positions of the rotors with arms of 1 m: only their proportions matter.

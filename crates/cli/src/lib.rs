@@ -64,6 +64,7 @@ mod spin_up;
 mod stored;
 mod temporary_file;
 mod terminal;
+mod text_file;
 mod thumbnail;
 mod today;
 mod toml_file;

@@ -8,6 +8,7 @@ use crate::inputs::{is_stdin, open_stream};
 use crate::nearest::nearest;
 use crate::outputs::{Outputs, is_recording, written};
 use crate::terminal::Terminal;
+use crate::text_file::{TextFormat, TextKind};
 use crate::typed::{quoted, typed_command};
 use hovertone_logs::{ColumnNames, LogError, LogSummary, Loss, SignalRow, log_summary, signal_rows};
 use hovertone_report::{Notice, log_json, log_text, signal_headers};
@@ -20,7 +21,10 @@ const IS_RECORDING: &str = "this is a recording, but a log is needed";
 const HINT_OF_RECORDING: &str = "give the log of the flight; `hovertone speed` hears a recording";
 /// The commands that take names for columns.
 const WITH_COLUMNS: [&str; 4] = ["log", "motor", "verify", "greybox"];
-const HINT_OF_LOSS: &str = "download the log again; hovertone used the part that it could read";
+const SIGNALS: TextKind =
+    TextKind { content: "a table of signals", format: TextFormat::Csv, example: "-o signals.csv" };
+const HINT_OF_LOSS: &str = "hovertone used the part that it could read; download the log again. If the new copy has the same fault, log \
+another flight, and do not cut the power before the log is closed";
 
 /// Lists all logs, or writes signals of one.
 pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -159,7 +163,9 @@ fn write_signals(
     arguments: &LogArguments,
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
-    let begun = Outputs::beside([file], arguments.replace.force).create(output)?;
+    let outputs = Outputs::beside([file], arguments.replace.force);
+    outputs.check_name(output, SIGNALS)?;
+    let begun = outputs.create(output)?;
     let mut writer = csv::Writer::from_writer(BufWriter::new(begun.handle()?));
     let mut has_header = false;
     let mut row_count = 0_u64;

@@ -2,7 +2,7 @@
 
 use crate::args::LabelArguments;
 use crate::failure::Failure;
-use crate::labels::notice_of;
+use crate::labels::{notice_of, with_known_frame};
 use crate::progress::{Progress, Share};
 use crate::recording::{Heard, Hearing, Job};
 use crate::toml_file::{NO_RECORDING, TomlFile};
@@ -12,7 +12,7 @@ use hovertone::rotors::{
 };
 use hovertone::speed::TrackPoint;
 use hovertone_media::{OpenOptions, Recording};
-use hovertone_report::Notice;
+use hovertone_report::{Notice, counted};
 use hovertone_vehicle::Vehicle;
 use serde::Deserialize;
 use std::path::Path;
@@ -64,7 +64,8 @@ pub(crate) fn resolve(
     let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
     if rotors < 2 {
         let what = "to tell by --microphones which rotor is which, hovertone needs the number of rotors, 2 or more";
-        return Err(refused(what.to_owned(), "give the number of rotors, as in --rotors 4"));
+        let hint = "give the number of rotors, as in --rotors 4; if only one rotor turns, leave --microphones out";
+        return Err(Failure::usage(what, hint));
     }
     let file: MicrophonesFile =
         TomlFile::read(path, "file of microphones", NO_RECORDING, SEE_EXAMPLE)?.with_content()?.parse()?;
@@ -80,9 +81,11 @@ pub(crate) fn resolve(
     let given: Vec<PlacedRotor> = given.collect();
     let Some(places) = Some(given).filter(|given| !given.is_empty()).or_else(|| places_of(vehicle?)) else {
         return Err(refused(
-            "the places of the rotors are not known".to_owned(),
-            "add a [[rotor]] with name and position_m for each rotor, or give --vehicle with a vehicle whose frame \
-             is known (`hovertone vehicles` lists vehicles)",
+            "this file has no places of the rotors".to_owned(),
+            &format!(
+                "add a [[rotor]] with name and position_m for each rotor, or give --vehicle with {}",
+                with_known_frame()
+            ),
         ));
     };
     let microphones_m = file.microphones.iter().map(|microphone| microphone.position_m).collect();
@@ -96,7 +99,7 @@ pub(crate) fn resolve(
     })?;
     if array.rotor_count() != rotors as usize {
         let what = format!(
-            "{rotors} rotors turn, but {} rotors have a position: the two numbers must be equal",
+            "{rotors} rotors turn, but the number of rotors with a position is {}: the two numbers must be equal",
             array.rotor_count()
         );
         return Err(refused(what, "give the number of rotors with --rotors, and one [[rotor]] for each of them"));
@@ -128,7 +131,8 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
     }
     Err(Failure::Usage {
         what: format!(
-            "the recording has {channels} channels, but {microphones} microphones have a position: the two numbers must be equal"
+            "the recording has {}, but the number of microphones with a position is {microphones}: the two numbers must be equal",
+            counted(channels, "channel")
         ),
         hint: "give one [[microphone]] for each channel, in the sequence of the channels; --audio-track N chooses another track of the file"
             .to_owned(),
@@ -165,7 +169,7 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
         match lines {
             Ok(lines) => channel_lines.push(lines),
             Err(error) => {
-                let text = format!("no rotor is named: channel {channel} could not be heard: {error}");
+                let text = format!("no rotor is named, because channel {channel} could not be heard: {error}");
                 record.notices.push(Notice::new(text, "check the file"));
                 return;
             }

@@ -19,21 +19,25 @@ const RESULTS: &str = "the results.json of `hovertone identify`";
 const ALL: [Needed; 27] = [
     needed("speed", "<FILE>...", "at least one recording"),
     needed("tones", "<FILE>...", "at least one recording"),
-    needed("listen", "--from-file <FILE>", "a recording: --from-file FILE"),
+    needed("listen", "--from-file <FILE>", "a recording (--from-file FILE)"),
     needed("batch", "<DIR|PATTERN|LIST|URL>...", "a folder with recordings"),
-    needed("batch", "--output <OUT>", "a folder for the results: -o OUT"),
+    needed("batch", "--output <OUT>", "a folder for the results (-o OUT)"),
     needed("batch-compare", "<OUT1>", "the earlier folder that `hovertone batch` wrote"),
     needed("batch-compare", "<OUT2>", "the later folder that `hovertone batch` wrote"),
     needed("spectrogram", "<FILE>", "a recording"),
-    needed("spectrogram", "--output <PICTURE>", "a name for the picture: -o PICTURE.png"),
+    needed("spectrogram", "--output <PICTURE>", "a name for the picture (-o PICTURE.png)"),
     needed("identify", "<EXPERIMENT.toml>", "an experiment file"),
     needed("calibrate", "<RECORDING>", "a recording"),
-    needed("calibrate", "--tachometer-rpm <RPM>", "a known speed: --tachometer-rpm RPM or --true-hz HZ"),
+    needed(
+        "calibrate",
+        "--tachometer-rpm <RPM>",
+        "a known speed (--tachometer-rpm RPM) or a known tone (--true-hz HZ)",
+    ),
     needed("fit", "<TABLE.csv>...", "at least one table of speeds and thrusts"),
     needed("weigh", "<FILE>...", "at least one recording"),
-    needed("weigh", "--constant <RESULTS.json>", "a thrust constant: --constant RESULTS.json"),
+    needed("weigh", "--constant <RESULTS.json>", "a thrust constant (--constant RESULTS.json)"),
     needed("export", "<RESULTS.json>", RESULTS),
-    needed("export", "--to <FORMAT>", "a format or a model: --to FORMAT or --into MODEL"),
+    needed("export", "--to <FORMAT>", "a format (--to FORMAT) or a model (--into MODEL)"),
     needed("compare", "<RESULTS.json>", RESULTS),
     needed("compare", "<MODEL>...", "at least one model of a simulator"),
     needed("log", "<FILE>...", "at least one log"),
@@ -41,7 +45,7 @@ const ALL: [Needed; 27] = [
     needed("verify", "<RECORDING>", "a recording"),
     needed("verify", "<LOG>", "the log of the same flight"),
     needed("greybox", "<RECORDING> [LOG]...", "a recording and its log, or the log alone"),
-    needed("greybox", "--vehicle <NAME>", "a vehicle: --vehicle NAME"),
+    needed("greybox", "--vehicle <NAME>", "a vehicle (--vehicle NAME)"),
     needed("simulate", "<SCENARIO.toml>", "a scenario file"),
     needed("completions", "<SHELL>", "the name of your shell"),
 ];
@@ -67,17 +71,18 @@ const OF_PLAN: &[&str] = &[
 ];
 const OF_DRAFT: &[&str] =
     &["--vehicle", "--blades", "--gear", "--rotors", "--diameter-m", "--gravity-m-s2", "--latitude-deg", "--height-m"];
-const ALL_BESIDE: [NeededBeside; 7] = [
-    needed_beside("<EXPERIMENT.toml>", OF_DRAFT, "the loads too: --mass KG=FILES"),
-    needed_beside("--log <FILE>", &["--log-offset-s", "--log-axes", "--layout"], "the log too: --log FILE"),
-    needed_beside("--commands <LOG>", &["--offset"], "the commands too: --commands LOG"),
-    needed_beside("--signal <NAME>", &["--output", "-o"], "the name of the signal too: --signal NAME"),
-    needed_beside("--output <FILE.csv>", &["--signal"], "a file for the signal too: -o FILE.csv"),
-    needed_beside("--plan", OF_PLAN, "--plan and the mass of the vehicle: --plan --mass-kg KG"),
-    needed_beside("--mass-kg <KG>", &["--plan"], "the mass of the vehicle: --mass-kg KG"),
+const ALL_BESIDE: [NeededBeside; 8] = [
+    needed_beside("<EXPERIMENT.toml>", OF_DRAFT, "masses and recordings too (--mass KG=FILES)"),
+    needed_beside("--log <FILE>", &["--log-offset-s", "--log-axes", "--layout"], "the log too (--log FILE)"),
+    needed_beside("--commands <LOG>", &["--offset"], "the log of the commands too (--commands LOG)"),
+    needed_beside("--signal <NAME>", &["--output", "-o"], "the name of the signal too (--signal NAME)"),
+    needed_beside("--output <FILE.csv>", &["--signal"], "a file for the signal too (-o FILE.csv)"),
+    needed_beside("--plan", OF_PLAN, "a plan and the mass of the vehicle (--plan --mass-kg KG)"),
+    needed_beside("--plan", &["--mass-kg"], "--plan too, because the mass belongs to a plan of flights"),
+    needed_beside("--mass-kg <KG>", &["--plan"], "the mass of the vehicle (--mass-kg KG)"),
 ];
 
-/// "--log-axes needs the log too: --log FILE".
+/// "--log-axes needs the log too (--log FILE)".
 fn missing_beside(words: &[OsString], arguments: &[String]) -> Option<String> {
     let is_missing = |beside: &&NeededBeside| arguments.iter().any(|argument| argument == beside.argument);
     ALL_BESIDE.iter().filter(is_missing).find_map(|beside| {
@@ -96,8 +101,14 @@ pub(crate) fn missing_in_words(words: &[OsString], arguments: &[String]) -> Stri
     };
     let name = command.get_name();
     let known = |argument: &String| ALL.iter().find(|needed| needed.command == name && needed.argument == argument);
-    let named: Vec<&str> =
-        arguments.iter().map(|argument| known(argument).map_or(argument.as_str(), |one| one.words)).collect();
+    // the parser has the flags first, a person the files
+    let (flags, files): (Vec<&String>, Vec<&String>) =
+        arguments.iter().partition(|argument| argument.starts_with("--"));
+    let named: Vec<&str> = files
+        .into_iter()
+        .chain(flags)
+        .map(|argument| known(argument).map_or(argument.as_str(), |one| one.words))
+        .collect();
     format!("{name} needs {}", named.join(", and "))
 }
 
@@ -111,15 +122,16 @@ mod tests {
     #[test]
     fn what_a_flag_needs_beside_it_has_words() {
         for (line, words) in [
-            ("speed a.wav --log-axes flu", "--log-axes needs the log too: --log FILE"),
-            ("motor a.wav --offset 0", "--offset needs the commands too: --commands LOG"),
-            ("log a.ulg -o a.csv", "-o needs the name of the signal too: --signal NAME"),
-            ("log a.ulg --signal speed", "--signal needs a file for the signal too: -o FILE.csv"),
+            ("speed a.wav --log-axes flu", "--log-axes needs the log too (--log FILE)"),
+            ("motor a.wav --offset 0", "--offset needs the log of the commands too (--commands LOG)"),
+            ("log a.ulg -o a.csv", "-o needs the name of the signal too (--signal NAME)"),
+            ("log a.ulg --signal speed", "--signal needs a file for the signal too (-o FILE.csv)"),
             (
                 "fit a.csv --wanted-share=0.1",
-                "--wanted-share needs --plan and the mass of the vehicle: --plan --mass-kg KG",
+                "--wanted-share needs a plan and the mass of the vehicle (--plan --mass-kg KG)",
             ),
-            ("fit --plan", "--plan needs the mass of the vehicle: --mass-kg KG"),
+            ("fit --plan", "--plan needs the mass of the vehicle (--mass-kg KG)"),
+            ("fit --mass-kg 0.4", "--mass-kg needs --plan too, because the mass belongs to a plan of flights"),
         ] {
             let words_typed: Vec<OsString> = format!("hovertone {line}").split(' ').map(OsString::from).collect();
             let error = typed_arguments(&words_typed).unwrap_err();

@@ -315,11 +315,11 @@ mod tests {
             ),
             (
                 "hovertone weigh a.wav",
-                "weigh needs a thrust constant: --constant RESULTS.json (for example `hovertone weigh",
+                "weigh needs a thrust constant (--constant RESULTS.json) (for example `hovertone weigh",
             ),
             (
                 "hovertone batch",
-                "batch needs a folder for the results: -o OUT, and a folder with recordings (for example",
+                "batch needs a folder with recordings, and a folder for the results (-o OUT) (for example",
             ),
             (
                 "hovertone demo extra",

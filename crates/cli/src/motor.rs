@@ -23,11 +23,9 @@ use hovertone_dynamics::{
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
 use hovertone_report::{LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text};
+use hovertone_vehicle::{LOGGED_REV_S_MAX, number_in_words};
 use std::path::Path;
 
-/// Largest speed of a log, rev/s. *Physics*: the electrical speed of the fastest motors, which logs hold where the pole pairs are not known, stays
-/// below a million rpm.
-const SPEED_REV_S_MAX: f64 = 17_000.0;
 /// Names of the one motor of a recording.
 const ALL_ROTORS: &str = "all rotors";
 const ONE_ROTOR: &str = "the rotor";
@@ -127,7 +125,7 @@ impl<'a> Plan<'a> {
         progress.finish();
         let heard = heard.map_err(|reason| {
             let what = format!("this file is neither a log nor a recording that hovertone can hear: {reason}");
-            Failure::failed(what, "give a log, or a video or audio file", file)
+            Failure::failed(what, "", file)
         })?;
         let mut sound = MotorSound {
             has_commands: commands.is_some(),
@@ -253,15 +251,17 @@ pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<Logge
         Ok(flight) => flight,
         Err(LogError::UnknownFormat) if !is_stdin(file) => return Ok(None),
         Err(LogError::UnknownFormat) => {
-            return Err(Failure::failed("this is no log", "give a recording as a file, not on stdin", file));
+            let hint = "send a log to stdin; give a recording by the name of its file, in place of -";
+            return Err(Failure::failed("this is no log", hint, Path::new(STDIN)));
         }
         Err(error) => return Err(log_failure(&error, file)),
     };
     let speeds = flight.speeds_rev_s.iter().flat_map(|speeds| speeds.values.iter().flatten());
     let fastest_rev_s = speeds.copied().fold(0.0, f64::max);
-    if fastest_rev_s > SPEED_REV_S_MAX {
+    if fastest_rev_s > LOGGED_REV_S_MAX {
         let what = format!(
-            "a motor of this log turns at {fastest_rev_s:.3e} rev/s, but no motor exceeds {SPEED_REV_S_MAX} rev/s"
+            "in this log, a motor turns at {} rev/s, but no motor exceeds {LOGGED_REV_S_MAX} rev/s",
+            number_in_words(fastest_rev_s.round())
         );
         let hint =
             "check the unit in the header of the speed column, or give the unit, as in --column HEADER=rotor1_rpm"

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 
 /// What a run leaves in its folder.
 pub(crate) struct FolderContent<'a> {
-    /// What it is, in messages.
+    /// How it is like an earlier run, in messages: "of the same demo".
     pub(crate) name: &'a str,
     /// Words that tell the run from runs on other inputs: a later run with the same words may replace its files.
     pub(crate) run: &'a str,
@@ -47,13 +47,13 @@ impl OutputFolder {
         if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
             if let Some(input) = folder.outputs.input_in(path) {
                 let what = format!(
-                    "this folder holds the input {}: nothing was written",
+                    "this folder holds the input file {}: nothing was written",
                     printable(&input.display().to_string())
                 );
                 return Err(refused(&what, "choose another folder for the results, as in -o results", path));
             }
             let what = format!(
-                "this folder has files that do not come from an earlier run with the same {}: nothing was written",
+                "this folder has files that do not come from an earlier run {}: nothing was written",
                 content.name
             );
             let hint = "choose a new folder with -o DIR, or use --force to write into this folder: files with the \
@@ -83,11 +83,13 @@ impl OutputFolder {
         match fs::read_dir(&self.path) {
             Ok(entries) => Ok(entries.filter_map(Result::ok).all(|entry| is_left_by_run(&entry.file_name()))),
             Err(_) if self.path.is_dir() => {
-                Err(Failure::failed(CLOSED_FOLDER, "choose another with -o DIR", &self.path))
+                Err(Failure::failed(CLOSED_FOLDER, "choose another folder with -o DIR", &self.path))
             }
-            Err(_) if self.path.exists() => {
-                Err(Failure::failed("this is a file, but a folder is needed", "choose another with -o DIR", &self.path))
-            }
+            Err(_) if self.path.exists() => Err(Failure::failed(
+                "this is a file, but a folder is needed",
+                "choose another folder with -o DIR",
+                &self.path,
+            )),
             Err(_) => Ok(true),
         }
     }

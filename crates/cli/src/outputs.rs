@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::output_file::OutputFile;
+use crate::text_file::TextKind;
 use hovertone_media::Container;
 use hovertone_report::printable;
 use std::fs::{self, File};
@@ -40,12 +41,23 @@ impl Outputs {
     /// Begins a file that holds no sound. It never takes the place of a recording: who names one by mistake, and follows a hint about --force,
     /// would lose it.
     pub(crate) fn create(&self, place: &Path) -> Result<OutputFile, Failure> {
+        self.refuse_recording(place)?;
+        self.create_sound(place)
+    }
+
+    /// Checks, before any long work, that the name of a file of text promises no other kind of file.
+    pub(crate) fn check_name(&self, place: &Path, kind: TextKind) -> Result<(), Failure> {
+        self.refuse_recording(place)?;
+        kind.check(place)
+    }
+
+    fn refuse_recording(&self, place: &Path) -> Result<(), Failure> {
         self.refuse_input(place)?;
         if is_recording(place) {
             let what = "this file is a recording, and the output would replace it: nothing was written";
             return Err(refused(what, "choose another name for the output", place));
         }
-        self.create_sound(place)
+        Ok(())
     }
 
     /// Begins a file that may hold sound.

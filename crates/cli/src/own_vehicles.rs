@@ -43,7 +43,8 @@ pub(crate) fn vehicles_in(file: &TomlFile<'_>) -> Result<Vec<Vehicle>, Failure> 
     let mut vehicles = Vec::new();
     for (id, own) in &written {
         if find_preset(id).is_some() {
-            let what = format!("[{id}] has the name of a preset, which cannot be replaced");
+            let what =
+                format!("[{id}] has the name of a preset (a vehicle that hovertone knows), which cannot be replaced");
             return Err(refused(what, "give your vehicle another name, such as my-drone"));
         }
         vehicles.push(own.vehicle(id).map_err(|error| {

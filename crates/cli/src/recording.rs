@@ -80,7 +80,9 @@ pub(crate) fn line_in_band(
     let mut recording = opened_or_not(job, hearing).map_err(|failure| failure.reason)?;
     let highest_hz = recording.info().sample_rate_hz / 2.0;
     if band_hz.end >= highest_hz {
-        return Err(format!("this recording has no sound above {highest_hz:.0} Hz; choose a lower tone"));
+        return Err(format!(
+            "this recording has no sound above {highest_hz:.0} Hz; record at a higher sample rate, or use a lower tone"
+        ));
     }
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
     let mut share = progress.recording();
@@ -162,7 +164,7 @@ pub(crate) fn better_rotor(
     progress: &Progress,
 ) -> Result<Option<OtherRotor>, Failure> {
     let failed = |what: String| Failure::failed(what, "give another recording", path);
-    let mut recording = Recording::open(path, &hearing.open_options()).map_err(|error| failed(error.to_string()))?;
+    let mut recording = open_with_advice(path, hearing)?;
     let mut share = progress.recording();
     let mut on_progress = progress_of(&recording, |done| share.show(done));
     Passes::planned(&mut recording, 1, &mut on_progress)
@@ -180,16 +182,22 @@ pub(crate) fn lines_of(
     progress: &Progress,
 ) -> Result<HeardLines, Failure> {
     let failed = |what: String| Failure::failed(what, "give a recording of the same flight", path);
-    if let Some(reason) = wrong_kind(path) {
-        return Err(failed(reason));
-    }
-    let mut recording = Recording::open(path, &hearing.open_options()).map_err(|error| failed(error.to_string()))?;
+    let mut recording = open_with_advice(path, hearing)?;
     let start_s = recording.info().start_s;
     let mut share = progress.recording();
     let mut on_progress = progress_of(&recording, |done| share.show(done));
     Passes::planned(&mut recording, 1, &mut on_progress)
         .and_then(|mut passes| lines_from_passes(&mut passes, start_s..f64::INFINITY, orders, speed_rev_s))
         .map_err(|error| failed(error.to_string()))
+}
+
+/// Opens a recording by its name. The reason of a failure contains the advice.
+fn open_with_advice(path: &Path, hearing: Hearing) -> Result<Recording, Failure> {
+    let failed = |reason: String| Failure::failed(reason, "", path);
+    match wrong_kind(path) {
+        Some(reason) => Err(failed(reason)),
+        None => Recording::open(path, &hearing.open_options()).map_err(|error| failed(error.to_string())),
+    }
 }
 
 /// Opens the recording of a job.

@@ -1,5 +1,6 @@
 //! Recordings in a folder, known by their endings: what `init` offers, and what a message about a missing file names.
 
+use crate::caller::typed_words;
 use crate::files::{files_of, home_expanded, is_pattern, missing_folder};
 use crate::inputs::is_stdin;
 use std::collections::BTreeMap;
@@ -11,6 +12,9 @@ const ENDINGS: [&str; 22] = [
     "3gp", "aac", "aif", "aiff", "avi", "caf", "flac", "m4a", "m4v", "mka", "mkv", "mov", "mp3", "mp4", "mts", "oga",
     "ogg", "opus", "ts", "wav", "webm", "wma",
 ];
+
+/// The commands that hear one recording at a time.
+const WITH_ONE_RECORDING: [&str; 5] = ["spectrogram", "calibrate", "verify", "greybox", "listen"];
 
 /// Recordings of one folder with one ending.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,17 +70,26 @@ fn folder_in_words(folder: &Path) -> String {
     let (inside, below) = (groups_in(folder), groups_below(folder));
     let first = inside.first().or(below.first());
     let advice = match first.and_then(|group| Some((group, group.files.first()?))) {
-        Some((group, file)) if group.files.len() > 1 => {
+        Some((group, file)) if group.files.len() > 1 && !hears_one() => {
             format!(
                 "give a recording in the folder, such as {}, or several recordings, such as {}",
                 file.display(),
                 group.pattern.display()
             )
         }
+        Some((group, file)) if group.files.len() > 1 => {
+            format!("give a recording in the folder, such as {}", file.display())
+        }
         Some((_, file)) => format!("give the recording in the folder: {}", file.display()),
         None => "the folder holds no recordings, so give the name of a recording".to_owned(),
     };
     format!("this is a folder, not a recording; {advice}")
+}
+
+/// Whether the typed command hears one recording at a time.
+fn hears_one() -> bool {
+    let words = typed_words();
+    words.get(1).and_then(|word| word.to_str()).is_some_and(|word| WITH_ONE_RECORDING.contains(&word))
 }
 
 /// What to say of a pattern where one recording is needed.
@@ -117,8 +130,7 @@ pub(crate) fn recordings_below(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Whether a name has the ending of a recording.
-#[cfg(feature = "stores")]
-pub(crate) fn is_recording(path: &Path) -> bool {
+pub(crate) fn has_ending_of_recording(path: &Path) -> bool {
     ending_of(path).is_some()
 }
 

@@ -2,17 +2,18 @@
 
 use crate::failure::Failure;
 use hovertone::thrust::AcousticScale;
-use hovertone_vehicle::{Estimate, is_swamped};
+use hovertone_vehicle::{Estimate, is_swamped, number_in_words};
 use std::path::Path;
 
 /// Refuses standard uncertainties that say that nothing was measured: those of the flags, and those of the results in a file.
 pub(crate) fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Result<(), Failure> {
     let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
-    let refuse = |name: &str, estimate: Estimate, hint: &str| {
+    let refuse = |name: &str, quantity: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
         let what = format!(
-            "{name} = {std} is too large: two times this uncertainty must be less than the number itself, {}",
-            estimate.value
+            "{name} = {} is too large: two times this uncertainty must be less than the {quantity} itself, {}",
+            number_in_words(std),
+            number_in_words(estimate.value)
         );
         Err(Failure::usage(what, hint))
     };
@@ -21,14 +22,17 @@ pub(crate) fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Resul
             let percent = 200.0 * constant.std_uncertainty.unwrap_or(0.0) / constant.value;
             let what =
                 format!("this constant is too uncertain to weigh with: its ± (k = 2) is {percent:.0} % of its value");
-            let hint = "record each load five times, and run `hovertone identify` again: its warnings name the fault";
+            let hint = "measure the constant again: the warnings of `hovertone identify` or `hovertone fit` say what to improve";
             Err(Failure::Usage { what, hint: hint.to_owned(), path: Some(path.to_owned()) })
         }
-        (constant, _) if is_swamped(&constant) => {
-            refuse("constant_std_n_s2", constant, "give it in N s², as the constant: one percent of 2.8e-5 is 2.8e-7")
-        }
+        (constant, _) if is_swamped(&constant) => refuse(
+            "constant_std_n_s2",
+            "constant",
+            constant,
+            "give the uncertainty in N s², as the constant: 1 % of 2.8e-5 is 2.8e-7",
+        ),
         (_, Some(mass)) if is_swamped(&mass) => {
-            refuse("mass_std_kg", mass, "give it in kilograms: for 0.5 g write 0.0005")
+            refuse("mass_std_kg", "mass", mass, "give the uncertainty in kilograms: for 0.5 g write 0.0005")
         }
         _ => Ok(()),
     }

@@ -50,7 +50,7 @@ fn check_read(analysis: &AnalysisArguments, method: Method) -> Result<(), Failur
         (analysis.window_s.is_some() && reads_no_ridges, "--window-s", OF_RIDGES),
     ];
     let Some((_, flag, methods)) = flags.into_iter().find(|(is_unused, ..)| *is_unused) else { return Ok(()) };
-    let what = format!("{flag} changes nothing here: the method of this command, {}, does not use it", method.name());
+    let what = format!("{flag} changes nothing, because the method {} does not use it", method.name());
     Err(Failure::usage(what, format!("leave {flag} out, or give {methods}")))
 }
 

@@ -71,7 +71,7 @@ fn subcommand<'a>(program: &'a Command, name: &str) -> Result<&'a Command, Failu
 
 fn write_all(program: &Command, folder: &Path, force: bool, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let nothing: [&Path; 0] = [];
-    let content = FolderContent { name: "man pages", run: "man", files: &[] };
+    let content = FolderContent { name: "of the same command", run: "man", files: &[] };
     let folder = OutputFolder::prepare(folder, Outputs::beside(nothing, force), &content)?;
     for command in [program].into_iter().chain(program.get_subcommands()) {
         let name = format!("{}.1", command.get_display_name().unwrap_or_else(|| command.get_name()));

@@ -49,7 +49,10 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     let reason = record.reason();
     let trial = trial_of("", record, reason.as_deref(), Some(&drawing));
     let Some(figure) = recording_figure(&trial, "spectrogram").map_err(Failure::internal)? else {
-        terminal.say("no picture was written: it needs 0.1 s of sound or more");
+        terminal.say(match record.is_part_outside() {
+            true => "no picture was written, because the chosen part lies after the end of the recording",
+            false => "no picture was written, because a picture needs 0.1 s of sound or more",
+        });
         return Ok(ending);
     };
     let bytes = kind.bytes(figure, arguments.dpi.map_or(DOTS_PER_INCH, f64::from))?;

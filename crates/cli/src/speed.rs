@@ -10,11 +10,14 @@ use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, hear_all, in_memory};
 use crate::settings::{check_tips_heard, check_tips_ruled_out, config_of, idle_mass};
 use crate::terminal::Terminal;
+use crate::text_file::{TextFormat, TextKind};
 use crate::vehicles::preset;
 use hovertone::speed::RotorsConfig;
 use hovertone_media::Samples;
 use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
+
+const TRACK: TextKind = TextKind { content: "a track", format: TextFormat::Csv, example: "--track track.csv" };
 
 /// The meaning of the arguments.
 struct Plan {
@@ -50,7 +53,7 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         if track.lines().nth(1).is_some() {
             plan.outputs.write(&path, track)?;
         } else {
-            terminal.say("--track wrote no file: no rotor was heard, so there is no speed over time");
+            terminal.say("--track wrote no file, because no recording has a speed");
         }
     }
     Ok(ending_of(&records))
@@ -122,6 +125,6 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
     let inputs = jobs.iter().map(|job| &job.path).chain(of_flight);
     let outputs = Outputs::beside(inputs, arguments.replace.force);
     let track = arguments.track.clone();
-    track.as_deref().map_or(Ok(()), |track| outputs.check(track))?;
+    track.as_deref().map_or(Ok(()), |track| outputs.check_name(track, TRACK).and_then(|()| outputs.check(track)))?;
     Ok(Plan { jobs, hearing, track, outputs, labels, microphones })
 }

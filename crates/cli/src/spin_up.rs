@@ -38,10 +38,10 @@ pub(crate) fn names_of(
             let known = layouts.iter().find_map(|layout| Some((*layout, numbers_in(layout)?)));
             let Some((layout, numbers)) = known else {
                 let is_unknown = |name: &&String| layouts.iter().all(|layout| number_in(layout, name).is_none());
-                let unknown = typed.iter().find(is_unknown).map_or_else(|| typed.join(","), String::clone);
-                return Err(refused(format!(
-                    "--spin-up names \"{unknown}\", but no known frame has a rotor of this name beside the other rotors"
-                )));
+                return Err(refused(match typed.iter().find(is_unknown) {
+                    Some(unknown) => format!("--spin-up names \"{unknown}\", but no rotor has this name"),
+                    None => format!("--spin-up names rotors of two different frames: {}", typed.join(",")),
+                }));
             };
             (places(layout).iter().map(|place| place.replace('-', " ")).collect::<Vec<String>>(), numbers)
         }
@@ -70,7 +70,7 @@ fn fault_of(order: &[usize], all: &[String], rotors: u32) -> String {
     if all.len() == rotors as usize && order.len() < all.len() {
         return format!(
             "--spin-up must name each of the {rotors} rotors exactly once; it does not name {}",
-            missing.join(" and ")
+            missing.join(", ")
         );
     }
     format!("--spin-up names {} rotors, but --rotors or --vehicle says that {rotors} rotors turn", order.len())

@@ -1,7 +1,7 @@
 //! Reading a TOML file of the user, with messages for its errors.
 
 use crate::failure::Failure;
-use crate::inputs::read_bytes;
+use crate::inputs::{IS_UTF16, is_utf16, read_bytes};
 use crate::toml_words::{PlainFault, in_plain_words};
 use hovertone_vehicle::find_preset;
 use serde::de::DeserializeOwned;
@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// What to do with a recording where the command hears none.
-pub(crate) const NO_RECORDING: &str = "give the TOML file, not a recording";
+pub(crate) const NO_RECORDING: &str = "give the text file (TOML), not a recording";
 
 /// A gear, which flags write as 8:69.
 const GEAR: &str = "gear = { pinion = 8, wheel = 69 }";
@@ -35,7 +35,10 @@ impl<'a> TomlFile<'a> {
         see_example: &'static str,
     ) -> Result<Self, Failure> {
         let bytes = read_bytes(path, &format!("the {kind}"))?;
-        let text = String::from_utf8(bytes).map_err(|_| {
+        let text = String::from_utf8(bytes).map_err(|error| {
+            if is_utf16(error.as_bytes()) {
+                return Failure::failed(IS_UTF16, "save the file as UTF-8", path);
+            }
             let what = format!("this file is not text, so it cannot be the {kind}");
             Failure::failed(what, if_recording, path)
         })?;
@@ -82,8 +85,17 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let Some(place) = span.map(|span| Place::of(span, &file.text)) else {
         return Failure::Usage { what, hint, path: Some(file.path.to_owned()) };
     };
-    let is_gear = error.message().starts_with("invalid type") && place.line.trim_start().starts_with("gear");
-    let hint = if is_gear { format!("as in {GEAR}; {}", file.see_example) } else { hint };
+    let is_of_gear = place.line.trim_start().starts_with("gear");
+    let is_of = |fault: &str| is_of_gear && error.message().starts_with(fault);
+    let (what, hint) = match () {
+        () if is_of("invalid type") => (what, format!("as in {GEAR}; {}", file.see_example)),
+        // 8:69 looks like a time
+        () if is_of("invalid time") => {
+            let what = format!("the {} has a gear in another form than TOML needs", file.kind);
+            (what, format!("write {GEAR}; {}", file.see_example))
+        }
+        () => (what, hint),
+    };
     let what = format!("{what}\n{}", place.underlined());
     let path = PathBuf::from(format!("{}:{}:{}", file.path.display(), place.line_number, place.column));
     Failure::Usage { what, hint, path: Some(path) }

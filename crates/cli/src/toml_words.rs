@@ -136,8 +136,8 @@ fn syntax(message: &str) -> Option<PlainFault> {
     let is_more = is("unexpected key or value, expected newline");
     is_more.then(|| {
         PlainFault::new(
-            "has more than one key with one value on this line",
-            "write decimals with a point, as in 0.4, and one key on each line",
+            "has something after the value on this line",
+            "write decimals with a point, as in 0.4, and only one key with its value on each line",
         )
     })
 }

@@ -77,14 +77,14 @@ pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
     let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
     let list = known.join(", ");
     if preset(name).is_ok() {
-        let hint = format!("this command flies the model of a vehicle, and only {list} have one: choose one of them");
+        let hint = format!("this command needs a vehicle with a flight model: {list}");
         return (format!("the vehicle \"{name}\" has no flight model"), hint);
     }
     let hint = match nearest(name, known) {
-        Some(nearest) => format!("did you mean \"{nearest}\"? The flight model knows {list}"),
-        None => format!("the flight model knows {list}"),
+        Some(nearest) => format!("did you mean \"{nearest}\"? Vehicles with a flight model: {list}"),
+        None => format!("vehicles with a flight model: {list}"),
     };
-    (format!("the flight model has no vehicle \"{name}\""), hint)
+    (format!("there is no vehicle \"{name}\" with a flight model"), hint)
 }
 
 /// The vehicle of a name, or a failure with the nearest name as a hint.

@@ -34,7 +34,11 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let jobs = jobs_of(std::slice::from_ref(&arguments.recording), &config, discovery, Requests::default())?;
     let log = &arguments.log;
     let Some(flight) = flight_of(log, &names)? else {
-        return Err(Failure::failed("this is no log", "give the recording first, then the log", log));
+        return Err(Failure::failed(
+            "this is no log",
+            "give the recording first, then the log of the same flight (PX4, ArduPilot, Betaflight or CSV)",
+            log,
+        ));
     };
     let Some(speeds) = &flight.speeds_rev_s else {
         return Err(without_speeds(log));

@@ -1,10 +1,10 @@
 //! `hovertone weigh`: the mass of a hovering vehicle from its sound.
 
-use crate::args::WeighArguments;
+use crate::args::{ToneArguments, WeighArguments};
 use crate::copies::refuse_copies;
 use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
-use crate::foreign_speed::{advise_by_constant, foreign_speed};
+use crate::foreign_speed::{advise_by_constant, foreign_speed, given};
 use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
@@ -13,13 +13,14 @@ use crate::scale_uncertainty::check_stds;
 use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
+use crate::wording::IN_HOVER;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighError, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
-use hovertone_report::{Notice, SpeedRecord, weighed_json, weighed_text};
+use hovertone_report::{Notice, NoticeKind, SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
     BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, Vehicle,
-    check_not_negative, check_positive,
+    check_not_negative, check_positive, number_in_words,
 };
 use std::ops::RangeInclusive;
 
@@ -61,8 +62,12 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let mut records = plan.records_of(&jobs, hearing, &progress);
+    let records = plan.records_of(&jobs, hearing, &progress).into_iter();
+    let mut records: Vec<SpeedRecord> = records.map(|record| record.worded(IN_HOVER)).collect();
     progress.finish();
+    // the known mass is that without the payload, which hovers too
+    let is_told = |notice: &Notice| notice.kind != NoticeKind::CannotHover;
+    records.iter_mut().for_each(|record| record.notices.retain(is_told));
     let tone_of_constant = results.as_ref().and_then(|rotor| rotor.tone.as_ref());
     if let Some(heard) = tone_of_constant {
         records.iter_mut().for_each(|record| advise_by_constant(record, heard, &arguments.tone));
@@ -73,7 +78,9 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_different_loads(&scale, &hovers, &names)?;
     let weighed = scale.weigh(&hovers);
     if let Some(weighed) = &weighed {
-        weighed.check().map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
+        let without_band = if arguments.tone.band.is_some() { "leave --band out; if the message stays, " } else { "" };
+        let refused = |error: WeighError| Failure::usage(error.to_string(), format!("{without_band}{}", error.hint()));
+        weighed.check().map_err(refused)?;
         let of_model = plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg));
         of_model.map_err(|error| Failure::usage(error.to_string(), CHECK_MODEL))?;
     }
@@ -103,7 +110,7 @@ fn refuse_different_loads(scale: &AcousticScale, hovers: &[HeardHover], names: &
     let Some(different) = scale.different_loads(hovers) else { return Ok(()) };
     let name = |index: usize| names.get(index).copied().unwrap_or_default();
     let what = format!(
-        "the recordings do not have the same mass: {} has {:.0} g, {} has {:.0} g",
+        "the recordings are of different loads: by the sound, the vehicle weighs {1:.0} g in {0} and {3:.0} g in {2}",
         name(different.light),
         1e3 * different.light_kg,
         name(different.heavy),
@@ -270,7 +277,7 @@ fn rotors_of(
     let rotor_count = said.map(|(said, _)| said).or(of_results);
     if rotor_count.is_none() && results.is_some() {
         let what = "the constant belongs to one rotor, but the number of rotors is not given";
-        return Err(Failure::usage(what, "give --rotors, or --vehicle"));
+        return Err(Failure::usage(what, "give the number of rotors, as in --rotors 4, or give --vehicle NAME"));
     }
     Ok(rotor_count)
 }
@@ -324,7 +331,8 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     if let Some(constant_n_s2) = arguments.constant_n_s2.filter(|constant_n_s2| !CONSTANT_N_S2.contains(constant_n_s2))
     {
         let what = format!(
-            "constant_n_s2 = {constant_n_s2:e}, but the constants of all multirotors are between 1e-11 and 10 N s²"
+            "constant_n_s2 = {}, but the constants of all multirotors are between 1e-11 and 10 N s²",
+            number_in_words(constant_n_s2)
         );
         return Err(Failure::usage(
             what,
@@ -346,12 +354,16 @@ fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -
     let heard = results.and_then(|rotor| rotor.tone);
     if let Some(tone) = tone_of(&arguments.tone)? {
         if let Some(heard) = heard.filter(|_| arguments.tone.vehicle.is_none()) {
-            check_order(tone.order, &heard)?;
+            check_order(tone.order, &heard, &arguments.tone)?;
         }
         return Ok(tone);
     }
     let heard = heard.ok_or_else(|| {
-        Failure::usage("the tone of the rotor is not known", "give --vehicle, --blades, --gear or --order")
+        let hint = match &arguments.tone.vehicle {
+            Some(_) => "count the blades of the vehicle, and give --blades N too",
+            None => "give --vehicle NAME, --blades N, --gear P:W or --order X",
+        };
+        Failure::usage("the tone of the rotor is not known", hint)
     })?;
     let order = Order::new(heard.order)?;
     let tone = ToneConfig {
@@ -368,16 +380,18 @@ fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -
 }
 
 /// Refuses an order that is neither that of the tone behind the constant nor that of the blade pass.
-fn check_order(said: Order, heard: &HeardTone) -> Result<(), Failure> {
+fn check_order(said: Order, heard: &HeardTone, typed: &ToneArguments) -> Result<(), Failure> {
     let lines = said.lines_per_turn();
     let may_be_blades = |lines: f64| heard.order > BLADES_MAX && lines <= BLADES_MAX && lines.fract() == 0.0;
     let is_blade_pass = heard.blades.map_or(may_be_blades(lines), |blades| lines == f64::from(blades));
     if lines == heard.order || is_blade_pass {
         return Ok(());
     }
+    let flags: Vec<&str> = given(typed).into_iter().filter(|flag| *flag != "--band").collect();
+    let flags = flags.join(" and ");
     let what = format!(
-        "the constant was measured with the tone of order {} (lines per turn), but the flags say {said}",
+        "the constant was measured with the tone of order {} (lines per turn), but by {flags} the order is {said}",
         heard.order
     );
-    Err(Failure::usage(what, "leave --order, --blades and --gear out: the results already have the order"))
+    Err(Failure::usage(what, format!("leave {flags} out: the results already have the order")))
 }

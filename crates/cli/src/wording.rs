@@ -9,9 +9,26 @@ pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
     ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
     ("--harmonics 1", "harmonics = 1 under [tone] of the experiment file that -o DIR writes"),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
+    (
+        "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with \
+         --rotors; ",
+        "C_f uses their mean speed, and its ± allows for this; ",
+    ),
+    OTHER_ROTORS_IN_FLIGHT,
+    ("under [samples] in the experiment file", "under [samples] of the experiment file that -o DIR writes"),
     ("--mass-kg", "--mass"),
     ("under the right [[load]]", "after the right --mass"),
+    ("give each mass a [[load]] of its own", "give --mass once for each mass"),
+    ("; is each added mass (added_mass_kg) without the mass of the vehicle?", ""),
 ]);
+
+/// In a hover, all rotors of the vehicle turn: no other number of them can be given.
+const OTHER_ROTORS_IN_FLIGHT: (&str, &str) =
+    ("if more rotors turn, give their number with --rotors; if not, ", "check the number of rotors; if it is right, ");
+
+/// Behind `weigh`, which hears a vehicle in a hover.
+pub(crate) const IN_HOVER: Wording =
+    Wording::of_phrases(&[("if fewer rotors turn, give their number with --rotors; ", ""), OTHER_ROTORS_IN_FLIGHT]);
 
 /// Behind `spectrogram`, which prints no speed.
 pub(crate) const IN_PICTURE: Wording =
@@ -73,9 +90,7 @@ mod tests {
 
     #[test]
     fn advice_names_only_what_the_command_has() {
-        for (command, wording) in
-            [("identify", IN_PLACE_OF_FILE), ("weigh", Wording::default()), ("speed", Wording::default())]
-        {
+        for (command, wording) in [("identify", IN_PLACE_OF_FILE), ("weigh", IN_HOVER), ("speed", Wording::default())] {
             for advice in advice() {
                 let worded = wording.of(&advice);
                 assert_eq!(unknown_flags(&worded, command), Vec::<String>::new(), "{command}: {worded}");
@@ -94,14 +109,32 @@ mod tests {
             is_assumed: false,
             spread_share: 0.006,
         };
-        for has_mean in [true, false] {
+        for (has_mean, begins) in [
+            (true, "C_f uses their mean speed, and its ± allows for this; "),
+            (false, "C_f is still valid, and its ± allows for this; "),
+        ] {
             let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());
-            assert!(worded.starts_with("C_f uses their mean speed, and its ± allows for this; "), "{worded}");
+            assert!(worded.starts_with(begins), "{worded}");
         }
         let drawn = IN_PICTURE.of(apart(true).hint());
         assert!(drawn.starts_with("if fewer rotors turn, give their number with --rotors;"), "{drawn}");
         let in_file = Wording::IN_EXPERIMENT.of(apart(true).hint());
-        assert!(in_file.contains("write in the experiment file, under [vehicle], rotors = N"), "{in_file}");
+        assert!(in_file.contains("on a bench, write rotors_running = N under its [[load]]"), "{in_file}");
+    }
+
+    /// A known vehicle in a hover has its number of rotors: `--rotors` with another number is refused.
+    #[test]
+    fn no_other_number_of_rotors_is_asked_for_in_a_hover() {
+        let apart =
+            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
+        for warning in [apart, Warning::OtherRotorsHeard { expected: 4 }] {
+            for wording in [IN_PLACE_OF_FILE, IN_HOVER] {
+                let worded = wording.of(warning.hint());
+                assert!(!worded.contains("--rotors") && !worded.contains("fewer"), "{worded}");
+            }
+            let in_file = Wording::IN_EXPERIMENT.of(warning.hint());
+            assert!(!in_file.contains("rotors = N"), "{in_file}");
+        }
     }
 
     #[test]

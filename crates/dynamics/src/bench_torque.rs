@@ -66,7 +66,8 @@ impl BenchTorque {
                 Some("several motors turn, and the torque is of all together; let one motor turn alone".to_owned())
             }
             Self::FewLevels { level_count } => Some(format!(
-                "the commands of this log hold {level_count} speeds for a second each, and {LEVELS_MIN} or more are needed; hold more speeds"
+                "the commands of this log hold {level_count} speed{} for a second or longer, and {LEVELS_MIN} or more are needed; hold more speeds",
+                if *level_count == 1 { "" } else { "s" }
             )),
             Self::OneSpeed => {
                 Some("all commands of this log hold the same speed; hold different speeds for a second each".to_owned())

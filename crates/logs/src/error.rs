@@ -157,7 +157,7 @@ impl LogError {
                 "export the log as CSV with a header, or give PX4's .ulg, ArduPilot's .bin or Betaflight's .bbl"
             }
             Self::WithoutData { .. } => {
-                "download the log from the vehicle again, or give another log of the same flight"
+                "download the log from the vehicle again; if the new copy has the same fault, log another flight"
             }
             Self::WithoutSignal { format: LogFormat::Ulog, .. } => {
                 "let PX4 log esc_status, actuator_motors, actuator_outputs or vehicle_angular_velocity (SDLOG_PROFILE)"

@@ -62,7 +62,8 @@ pub enum MediaError {
 
     /// The requested track does not exist.
     #[error(
-        "audio track {asked} does not exist: the file has {count}, numbered from 1; name one of them, or leave --audio-track out"
+        "audio track {asked} does not exist: the number of audio tracks in the file is {count}; give a smaller number, or leave \
+        --audio-track out"
     )]
     NoSuchTrack {
         /// Number of the track, counted from 1.
@@ -73,7 +74,8 @@ pub enum MediaError {
 
     /// The requested channel does not exist.
     #[error(
-        "channel {asked} does not exist: the audio track has {count}, numbered from 1; name one of them, or leave --channel out"
+        "channel {asked} does not exist: the number of channels in the audio track is {count}; give a smaller number, or leave \
+        --channel out"
     )]
     NoSuchChannel {
         /// Number of the channel, counted from 1.

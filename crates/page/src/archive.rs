@@ -63,7 +63,7 @@ impl ArchiveRecording {
             "ok" => ("doubt", "!", "done, with warnings"),
             "ambiguous" => ("doubt", "?", "ambiguous"),
             "error" => ("fails", "✗", "could not be heard"),
-            _ => ("fails", "–", "no rotor tone"),
+            _ => ("fails", "–", "no speed"),
         }
     }
 
@@ -147,7 +147,7 @@ struct Page<'a> {
 pub fn archive_html(page: &ArchivePage<'_>) -> Result<String, PageError> {
     let style = [STYLE, STYLE_OF_ROWS].concat();
     let recordings = page.recordings;
-    let counts = [("ok", "done"), ("ambiguous", "ambiguous"), ("no_rotor_tone", "no rotor tone"), ("error", "failed")]
+    let counts = [("ok", "done"), ("ambiguous", "ambiguous"), ("no_rotor_tone", "no speed"), ("error", "failed")]
         .map(|(status, words)| format!("{} {words}", recordings.has_status(status)))
         .join(", ");
     let left_out = (recordings.count > recordings.shown.len()).then(|| {
@@ -202,8 +202,7 @@ mod tests {
         recordings.push(failed);
         let html = page_of(&recordings);
         assert!(!html.contains("<script>alert") && !html.contains("<archive>"));
-        for words in
-            ["60.000 ± 0.020", "the file is empty", "2 recordings: 1 done, 0 ambiguous, 0 no rotor tone, 1 failed"]
+        for words in ["60.000 ± 0.020", "the file is empty", "2 recordings: 1 done, 0 ambiguous, 0 no speed, 1 failed"]
         {
             assert!(html.contains(words), "{words}");
         }

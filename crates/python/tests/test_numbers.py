@@ -75,7 +75,7 @@ def test_identify(demo, identified, told_json, program):
     experiment = demo / "experiment.toml"
     found = identified
     assert found.json == told_json("identify", experiment) == json.loads((demo / "results.json").read_text())
-    assert found.quote.splitlines() == program("identify", experiment).stdout.splitlines()[1:3]
+    assert found.quote.splitlines() == program("identify", experiment).stdout.splitlines()[1:-1]
     loads = pandas.read_csv(demo / "loads.csv")
     pandas.testing.assert_frame_equal(found.to_pandas(), loads, check_exact=True, check_dtype=False)
     samples = pandas.read_csv(demo / "samples.csv")

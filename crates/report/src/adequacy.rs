@@ -1,6 +1,6 @@
 //! How well the square law holds, which law the evidence prefers, and the uncertainty budget.
 
-use crate::number::{DASH, PowerOfTen, significant, spread, with_uncertainty};
+use crate::number::{DASH, PowerOfTen, expanded, significant, spread, with_uncertainty};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
@@ -8,12 +8,16 @@ use hovertone_thrust::{
     BudgetInput, BudgetLine, ForceLaw, LoadRange, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget,
     p_value_text, preferred_law,
 };
+use hovertone_vehicle::Estimate;
 
 /// Contributions below this share of the constant have no line for people; the JSON has all of them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;
 
 /// Forces are not called alike where the largest is this many times the smallest.
 const WIDE_FORCE_RATIO: f64 = 2.0;
+
+/// An intercept below this has a power of ten in its unit: its cell would have many zeros.
+const SMALL_INTERCEPT_N: f64 = 0.1;
 
 /// Parameters of the largest compared law: more points tell whether it is needed.
 const LAW_PARAMETERS: usize = 2;
@@ -35,17 +39,26 @@ pub fn laws_text(fit: &SquareLawFit, width: Option<usize>) -> String {
     table_text(&laws_table(fit), width) + &agreement_text(fit) + &preferred_text(fit)
 }
 
+/// The unit of an intercept.
+fn intercept_unit(intercept_n: Estimate) -> PowerOfTen {
+    let numbers = [intercept_n.value, expanded(intercept_n.std_uncertainty).unwrap_or(0.0)];
+    let is_small = numbers.iter().all(|number| number.abs() < SMALL_INTERCEPT_N);
+    if is_small { PowerOfTen::of(numbers) } else { PowerOfTen::exact(0) }
+}
+
+/// A number with its ±, without its unit.
+fn in_unit(unit: PowerOfTen, estimate: Estimate) -> String {
+    with_uncertainty(unit.scale(estimate.value), estimate.std_uncertainty.map(|std| unit.scale(std)))
+}
+
 /// The square law and the laws beside it, with their probabilities.
 pub fn laws_table(fit: &SquareLawFit) -> TextTable {
     let unit = PowerOfTen::of([fit.thrust_constant_n_s2.value]);
-    let constant = |constant: hovertone_vehicle::Estimate| {
-        let std = constant.std_uncertainty.map(|std| unit.scale(std));
-        with_uncertainty(unit.scale(constant.value), std)
-    };
+    let force_unit = fit.with_intercept.map_or(PowerOfTen::exact(0), |law| intercept_unit(law.intercept_n));
     let mut text = TextTable::new(vec![
         Column::words("law (± of the fit alone, k = 2)"),
         Column::numbers("C_f", &unit.unit(CONSTANT_UNIT)),
-        Column::numbers("F₀", "N"),
+        Column::numbers("F₀", &force_unit.unit("N")),
         Column::numbers("exponent", ""),
         Column::numbers("probability", "%"),
     ]);
@@ -61,10 +74,10 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
         let [constant, intercept, exponent] = cells;
         text.push(vec![format!("{}{mark}", law.formula()), constant, intercept, exponent, probability(law)]);
     };
-    row(ForceLaw::Square, [constant(fit.thrust_constant_n_s2), "0".to_owned(), "2".to_owned()]);
+    row(ForceLaw::Square, [in_unit(unit, fit.thrust_constant_n_s2), "0".to_owned(), "2".to_owned()]);
     if let Some(law) = fit.with_intercept {
-        let intercept = with_uncertainty(law.intercept_n.value, law.intercept_n.std_uncertainty);
-        row(ForceLaw::SquareWithIntercept, [constant(law.thrust_constant_n_s2), intercept, "2".to_owned()]);
+        let cells = [in_unit(unit, law.thrust_constant_n_s2), in_unit(force_unit, law.intercept_n), "2".to_owned()];
+        row(ForceLaw::SquareWithIntercept, cells);
     }
     if let Some(law) = fit.power_law {
         let exponent = with_uncertainty(law.exponent.value, law.exponent.std_uncertainty);
@@ -85,12 +98,12 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
         }
         (Some(ForceLaw::SquareWithIntercept), Some(law), _) => {
             let constant = law.thrust_constant_n_s2;
-            let unit = PowerOfTen::of([constant.value]);
-            let std = constant.std_uncertainty.map(|std| unit.scale(std));
+            let (force_unit, unit) = (intercept_unit(law.intercept_n), PowerOfTen::of([constant.value]));
             format!(
-                "preferred law: F = F₀ + C ω², F₀ = ({}) N, C = ({}) {}, ω in rad/s\n",
-                with_uncertainty(law.intercept_n.value, law.intercept_n.std_uncertainty),
-                with_uncertainty(unit.scale(constant.value), std),
+                "preferred law: F = F₀ + C ω², F₀ = ({}) {}, C = ({}) {}, ω in rad/s\n",
+                in_unit(force_unit, law.intercept_n),
+                force_unit.unit("N"),
+                in_unit(unit, constant),
                 unit.unit(CONSTANT_UNIT),
             )
         }
@@ -188,6 +201,22 @@ fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hovertone_vehicle::Ending;
+
+    /// The forces of a small propeller: seven zeros in a cell hide the number.
+    #[test]
+    fn a_small_intercept_has_a_power_of_ten_in_its_unit() {
+        let said = |value: f64, std_uncertainty: Option<f64>| {
+            let intercept_n = Estimate { value, std_uncertainty, ending: Ending::Solved };
+            let unit = intercept_unit(intercept_n);
+            (in_unit(unit, intercept_n), unit.unit("N"))
+        };
+        assert_eq!(said(-2e-8, Some(2.3e-7)), ("−0.2 ± 4.6".to_owned(), "1e-7 N".to_owned()));
+        assert_eq!(said(-0.0117, Some(0.0027)), ("−1.17 ± 0.54".to_owned(), "1e-2 N".to_owned()));
+        assert_eq!(said(-0.04, Some(0.23)), ("−0.04 ± 0.46".to_owned(), "N".to_owned()));
+        assert_eq!(said(0.5, None).1, "N");
+        assert_eq!(said(0.0, None), ("0.00000".to_owned(), "N".to_owned()));
+    }
 
     #[test]
     fn forces_that_differ_widely_are_not_called_alike() {

@@ -35,6 +35,7 @@ mod flight_log;
 mod flight_log_tables;
 mod flight_plan;
 mod folded_warnings;
+mod given;
 mod grey_box;
 mod logged;
 mod models;

@@ -118,7 +118,7 @@ fn nothing_in_words(source: &MotorSource) -> String {
     match source {
         MotorSource::Log => "no rotor turns in this log\n".to_owned(),
         MotorSource::Sound(sound) => {
-            format!("no rotor tone: {}\n", sound.no_tone.as_deref().unwrap_or("no speed is held for a second"))
+            format!("no time constant: {}\n", sound.no_tone.as_deref().unwrap_or("no speed is held for a second"))
         }
     }
 }

@@ -27,6 +27,8 @@ pub enum NoticeKind {
     AnotherRotorFits,
     /// No multirotor does what the facts and the speed mean together.
     Impossible,
+    /// The vehicle cannot hover with its mass at the speed.
+    CannotHover,
 }
 
 impl Notice {

@@ -100,7 +100,7 @@ pub fn rotors_heard_text(counts: RotorsHeardCounts) -> Option<String> {
     let parts = [
         (counts.separated, "separated"),
         (counts.group, "heard as a group"),
-        (counts.one_tone, "followed by one tone for all"),
+        (counts.one_tone, "with one tone for all"),
     ];
     if counts.separated + counts.group == 0 {
         return None;

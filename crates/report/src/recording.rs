@@ -4,7 +4,7 @@ use crate::notice::{Notice, NoticeKind};
 use crate::number::significant;
 use crate::wording::Wording;
 use hovertone_analysis::{
-    GivenFacts, Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
+    Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
     SpeedAnalysis, SpeedEstimate, ToneFamily, Warning,
 };
 use hovertone_vehicle::{BLADES_MAX, Order, THRUST_COEFFICIENT};
@@ -221,15 +221,18 @@ impl SpeedRecord {
         }
     }
 
+    /// Whether the chosen part lies after the end of the recording.
+    pub fn is_part_outside(&self) -> bool {
+        let outcome = self.analysis().map(|analysis| &analysis.outcome);
+        matches!(outcome, Some(Outcome::NoRotorTone { reason: NoTone::OutsideRecording { .. } }))
+    }
+
     /// What stands before the reason for a missing speed. The tone is not to blame where the chosen part is not in the recording.
     pub fn missing_speed_label(&self) -> &'static str {
-        let outside = |analysis: &SpeedAnalysis| {
-            matches!(&analysis.outcome, Outcome::NoRotorTone { reason: NoTone::OutsideRecording { .. } })
-        };
-        match self.analysis() {
-            _ if self.is_ambiguous() => "ambiguous",
-            Some(analysis) if outside(analysis) => "no speed",
-            _ => "no rotor tone",
+        match (self.is_ambiguous(), self.is_part_outside()) {
+            (true, _) => "ambiguous",
+            (false, true) => "no speed",
+            (false, false) => "no rotor tone",
         }
     }
 
@@ -267,7 +270,7 @@ impl SpeedRecord {
                     .to_owned(),
             ),
             // a vehicle with a mass is in flight
-            Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() && !self.given_facts().mass => {
+            Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() && self.setting("/known/mass_kg").is_none() => {
                 let band = if self.given_facts().band { "a narrower --band" } else { "--band LOW:HIGH" };
                 Some(format!(
                     "several rotor speeds explain this sound; on a bench, give the band around the tone of the blades \
@@ -310,8 +313,7 @@ impl SpeedRecord {
         let range = only_rev_s.map_or_else(String::new, |(low, high)| {
             format!(" at {:.0} to {:.0} Hz, where {low:.0} to {high:.0} rev/s would sound", order * low, order * high)
         });
-        let given = self.given_facts();
-        let (replaced, given) = (GivenFacts { blades: false, ..given }.in_words("and"), given.in_words("and"));
+        let (replaced, given) = (self.given_facts().replaced_by_blades(), self.given_facts().in_words("and"));
         (order > BLADES_MAX).then(|| {
             format!(
                 "the tone of the gear ({order} times the rotor speed) is not heard{range}; if the rotors have no \
@@ -324,27 +326,6 @@ impl SpeedRecord {
     /// Whether one rotor alone is said to turn, as on a bench.
     pub(crate) fn is_one_rotor(&self) -> bool {
         self.settings.pointer("/known/rotor_count").and_then(Value::as_u64) == Some(1)
-    }
-
-    /// The facts that were given before the recording was heard.
-    pub fn given_facts(&self) -> GivenFacts {
-        let of_search = self.found.as_ref().map(|found| &found.settings);
-        let is_given = |place: &str| {
-            let has = |settings: &Value| settings.pointer(place).is_some_and(|value| !value.is_null());
-            has(&self.settings) || of_search.is_some_and(has)
-        };
-        let (is_order_given, is_mesh) = (self.found.is_none(), self.order.lines_per_turn() > BLADES_MAX);
-        let are_blades_given = is_given("/tone/blades") || is_given("/known/blade_count");
-        GivenFacts {
-            vehicle: is_given("/known/vehicle"),
-            blades: are_blades_given,
-            gear: is_order_given && is_mesh,
-            order: is_order_given && !is_mesh && !are_blades_given,
-            diameter: is_given("/known/diameter_m"),
-            mass: is_given("/known/mass_kg"),
-            band: is_given("/tone/band_hz"),
-            window: is_given("/spectrogram/window_s"),
-        }
     }
 
     fn is_setting_missing(&self, place: &str) -> bool {
@@ -384,7 +365,7 @@ impl SpeedRecord {
         let has_labels = self.labels.as_ref().is_none_or(|labels| labels.not_told.is_none());
         self.speed().is_none()
             || self.contradiction().is_some()
-            || self.notices.iter().any(|notice| notice.kind == NoticeKind::Impossible)
+            || self.notices.iter().any(|notice| matches!(notice.kind, NoticeKind::Impossible | NoticeKind::CannotHover))
             || !has_labels
             || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
     }

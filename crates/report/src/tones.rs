@@ -76,6 +76,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
             "a rotor, but the sound does not show which of these speeds it has".to_owned()
         }
         (Some(_), _) => record.speed().map_or("a rotor".to_owned(), |heard| heard_in_words(record, heard)),
+        (None, _) if record.is_part_outside() => "the chosen part lies after the end of the recording".to_owned(),
         (None, _) if found.families.is_empty() => "no rotor tone, and no other tone".to_owned(),
         (None, _) => "no rotor tone".to_owned(),
     };

@@ -24,19 +24,19 @@ impl Wording {
             ),
             (
                 "to separate them and get a smaller ±, ",
-                "C_f uses their mean speed, and its ± allows for this; to separate them and get a smaller ±, ",
+                "C_f is still valid, and its ± allows for this; to separate them and get a smaller ±, ",
             ),
             (
                 "if fewer rotors turn, give their number with --rotors",
-                "if fewer rotors turn, write in the experiment file, under [vehicle], rotors = N (on a bench, \
-                rotors_running = N under [[load]])",
+                "if fewer rotors turn on a bench, write rotors_running = N under its [[load]]",
             ),
             (
-                "give their number with --rotors",
-                "write rotors = N under [vehicle] (on a bench, rotors_running = N under [[load]])",
+                "if more rotors turn, give their number with --rotors; if not, ",
+                "check preset or rotors under [vehicle] (on a bench, rotors_running under [[load]]); if it is right, ",
             ),
             ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
             (" alone, in place of the vehicle", " and rotors = N, in place of preset"),
+            ("give --blades N alone", "write order = N under [tone] for N blades"),
             ("give --blades N", "write blades = N under [vehicle]"),
             ("give --blades ", "under [vehicle] write blades = "),
         ],

@@ -16,7 +16,7 @@ use serde::Serialize;
 pub struct ThrustTable {
     /// Method of the speeds.
     pub method: Method,
-    /// How the rotors are heard in the trials.
+    /// How the rotors are heard in the trials that the constant comes from.
     pub rotors_heard: RotorsHeardCounts,
     /// Number of rotors of the vehicle.
     pub rotor_count: u32,

@@ -89,7 +89,7 @@ pub enum Contradiction {
         said: u32,
     },
     /// A mass of hundreds of kilograms, and nothing else that would bear it out.
-    #[error("mass_kg = {0} is more than most multirotors weigh, and no diameter of its propellers is given")]
+    #[error("mass_kg = {0} is more than most multirotors weigh, and the diameter of the propellers is not given")]
     HeavyWithoutDiameter(f64),
     /// Propellers that are too small for the mass.
     #[error(
@@ -161,11 +161,14 @@ impl Contradiction {
                 let edge_hz = |rev_s: f64| rev_s * order.lines_per_turn();
                 format!(
                     "leave the band out, or give one within {:.0} to {:.0} Hz, where this tone can be; for another \
-                    tone, also give its order (the tone's frequency over the rotor speed)",
+                    tone, give its order (the tone's frequency over the rotor speed) in place of blades and gear",
                     edge_hz(*rev_s_min),
                     edge_hz(*rev_s_max)
                 )
             }
+            Self::Rotors { said, known, .. } if said > known => format!(
+                "leave out one of the two; if your vehicle has {said} rotors, give rotors and blades without the name of the vehicle"
+            ),
             Self::Rotors { .. } => "leave out one of the two: in a hover, all rotors of the vehicle turn".to_owned(),
             Self::HeavyWithoutDiameter(mass_kg) => format!(
                 "masses are in kilograms: for {mass_kg} g write {}; if the vehicle is this heavy, also give the diameter of its propellers",
@@ -183,6 +186,10 @@ impl Contradiction {
             Self::GearSwapped(gear) => {
                 format!("the pinion on the motor comes first: write {}:{}", gear.wheel, gear.pinion)
             }
+            Self::TipsTooFast { rev_s, .. } if *rev_s <= HOVER_REV_S_MIN => format!(
+                "check the diameter (from tip to tip, in metres: 10 inches are 0.254): multirotors hover at \
+                {HOVER_REV_S_MIN} rev/s or more"
+            ),
             Self::TipsTooFast { .. } => "check the diameter (from tip to tip, in metres: 10 inches are 0.254) and the \
                                          number of blades"
                 .to_owned(),

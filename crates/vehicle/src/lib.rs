@@ -29,9 +29,9 @@ pub use frame::RotorPlace;
 pub use known_rotor::KnownRotor;
 pub use limits::{
     BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, GRAMS_FACTOR, KNOWN_MASS_SHARES,
-    KNOWN_RANGE_MARGIN, MASS_ALONE_KG_MAX, MASS_FACTOR_MAX, MESH_SIDEBANDS, PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE,
-    ROTORS_MAX, THRUST_COEFFICIENT, are_masses_of_one_vehicle, check_diameter, check_not_negative, check_positive,
-    check_range, is_swamped, loudest_rotor_share,
+    KNOWN_RANGE_MARGIN, LOGGED_REV_S_MAX, MASS_ALONE_KG_MAX, MASS_FACTOR_MAX, MESH_SIDEBANDS, PROPELLER_DIAMETER_M,
+    ROTOR_SPREAD_SHARE, ROTORS_MAX, SHAFT_REV_S, THRUST_COEFFICIENT, are_masses_of_one_vehicle, check_diameter,
+    check_not_negative, check_positive, check_range, is_swamped, loudest_rotor_share,
 };
 pub use line_levels::LineLevels;
 pub use number::number_in_words;

@@ -15,6 +15,14 @@ pub const ROTORS_MAX: u32 = 12;
 /// Diameters of multirotor propellers, m, with a margin on both sides. C_T contains D⁴, so a wrong unit must be refused. *Physics.*
 pub const PROPELLER_DIAMETER_M: RangeInclusive<f64> = 0.01..=10.0;
 
+/// Speeds of a running rotor, rev/s, that are accepted from instruments, tables and files: the smallest racers' propellers make 670. Numbers
+/// beyond are in another unit. *Physics.*
+pub const SHAFT_REV_S: RangeInclusive<f64> = 1.0..=1500.0;
+
+/// Largest speed in the log of a flight, rev/s. Where the pole pairs are not known, logs hold electrical speeds, and a geared motor is faster
+/// than its rotor: the fastest stay below a million rpm. *Physics.*
+pub const LOGGED_REV_S_MAX: f64 = 17_000.0;
+
 /// Thrust coefficients T/(ρ n² D⁴) of hovering propellers. Measured ones lie between 0.06 and 0.15. *Physics.*
 pub const THRUST_COEFFICIENT: RangeInclusive<f64> = 0.03..=0.25;
 

@@ -1,15 +1,15 @@
 //! A vehicle that a user describes in a file, beside the presets.
 
 use crate::{
-    Contradiction, Gear, KnownRotor, QuantityError, RotorSpeed, ShaftSpeedRange, Sourced, Vehicle, check_diameter,
-    check_tips,
+    Contradiction, Gear, KnownRotor, QuantityError, RotorSpeed, SHAFT_REV_S, ShaftSpeedRange, Sourced, Vehicle,
+    check_diameter, check_tips,
 };
 use serde::Deserialize;
 
 /// Most blades of a propeller that a file may state. *Physics.*
 const BLADES_ALLOWED: std::ops::RangeInclusive<u32> = 1..=20;
-/// Fastest shaft of a multirotor, rev/s: propellers of 3 cm turn at 900. A larger number is in rpm. *Physics.*
-const SHAFT_REV_S_MAX: f64 = 1000.0;
+/// [`SHAFT_REV_S`] in words.
+const SHAFT_WORDS: &str = "from 1 to 1500: it is in turns per second, and 3600 rpm are 60";
 /// Source of the numbers where the file names none.
 const SOURCE: &str = "your own vehicles.toml";
 
@@ -101,7 +101,7 @@ impl OwnVehicle {
         let of_mass = KnownRotor { mass_kg: self.mass_kg, ..KnownRotor::default() };
         let of_rotors = KnownRotor { rotor_count: Some(self.rotors), ..KnownRotor::default() };
         if of_rotors.check().is_err() {
-            return refuse("rotors", f64::from(self.rotors), "from 1 to 64");
+            return refuse("rotors", f64::from(self.rotors), "from 1 to 12");
         }
         let diameter_m = self.propeller_diameter_m;
         diameter_m.map_or(Ok(()), |diameter_m| check_diameter("propeller_diameter_m", diameter_m))?;
@@ -112,12 +112,11 @@ impl OwnVehicle {
             (_, Some(mass_kg), _) if of_mass.check().is_err() => {
                 refuse("mass_kg", mass_kg, "from 0.001 to 10000: it is in kilograms")
             }
-            (.., Some((low, high))) if !(low > 0.0 && low < high && high.is_finite()) => {
-                refuse("shaft_speed_rev_s", low, "above 0, and below the second number")
-            }
-            (.., Some((_, high))) if high > SHAFT_REV_S_MAX => {
-                refuse("shaft_speed_rev_s", high, "1000 or less: it is in turns per second, and 3600 rpm are 60")
-            }
+            (.., Some((low, high))) => match [low, high].into_iter().find(|rev_s| !SHAFT_REV_S.contains(rev_s)) {
+                Some(beyond) => refuse("shaft_speed_rev_s", beyond, SHAFT_WORDS),
+                None if low >= high => refuse("shaft_speed_rev_s", low, "below the second number"),
+                None => Ok(()),
+            },
             _ => Ok(()),
         }
     }
@@ -152,6 +151,11 @@ mod tests {
     }
 
     #[test]
+    fn the_words_have_the_bounds() {
+        assert!(SHAFT_WORDS.contains(&format!("from {} to {}:", SHAFT_REV_S.start(), SHAFT_REV_S.end())));
+    }
+
+    #[test]
     fn what_no_vehicle_has_is_refused_by_name() {
         for id in ["", "Hexa", "my drone", "-x", "a.b"] {
             assert!(matches!(own().vehicle(id), Err(OwnVehicleError::Name { .. })), "{id}");
@@ -163,6 +167,8 @@ mod tests {
             (OwnVehicle { mass_kg: Some(f64::NAN), ..own() }, "mass_kg"),
             (OwnVehicle { shaft_speed_rev_s: Some((200.0, 40.0)), ..own() }, "shaft_speed_rev_s"),
             (OwnVehicle { shaft_speed_rev_s: Some((3600.0, 9000.0)), ..own() }, "3600 rpm are 60"),
+            (OwnVehicle { shaft_speed_rev_s: Some((0.5, 90.0)), ..own() }, "from 1 to 1500"),
+            (OwnVehicle { rotors: 13, ..own() }, "rotors = 13, and it must be from 1 to 12"),
             (OwnVehicle { gear: Some(Gear { pinion: 69, wheel: 8 }), ..own() }, "swapped"),
             (OwnVehicle { mass_kg: Some(250.0), ..own() }, "Mach"),
             (

@@ -8,9 +8,10 @@ use hovertone::speed::{
     Config, Error, Method, NoTone, Outcome, SpeedAnalysis, ToneConfig, Warning, passes_of_speed, speed_from_passes,
 };
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
+use hovertone_analysis::GivenFacts;
 use hovertone_media::{Decoder, MediaWarning, Recording};
 use hovertone_report::{Answer, Found, Notice, NoticeKind, RecordingFacts, SpeedRecord, Wording, significant};
-use hovertone_vehicle::{AIR_KG_M3, KNOWN_RANGE_MARGIN, Order, THRUST_COEFFICIENT, check_tips};
+use hovertone_vehicle::{AIR_KG_M3, BLADES_MAX, KNOWN_RANGE_MARGIN, Order, THRUST_COEFFICIENT, check_tips};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -145,7 +146,7 @@ fn notice_of_one_tone(record: &SpeedRecord, config: &Config) -> Option<Notice> {
         100.0 * share
     );
     let hint = match config.method {
-        Method::Harmonic => "to hear each rotor, leave --mean-only and --method harmonic out",
+        Method::Harmonic => "to hear each rotor, leave --mean-only or --method harmonic out",
         _ => "to hear each rotor, leave --method out",
     };
     (share > 0.0).then(|| Notice::new(text, hint))
@@ -160,11 +161,12 @@ fn notice_of_thrust(record: &SpeedRecord, config: &Config) -> Option<Notice> {
     let is_foreign = config.rotors.count > 1 && !THRUST_COEFFICIENT.contains(&coefficient);
     let text = format!(
         "the vehicle cannot hover at {speed_rev_s:.1} rev/s: with its diameter, mass and number of rotors, its propellers would need a \
-         thrust coefficient of {}, and propellers have {low} to {high}",
+         thrust coefficient (thrust for their size and speed) of {}, and propellers have {low} to {high}",
         significant(coefficient, 2)
     );
-    let hint = format!("if it hovers in this recording, check {}", record.given_facts().in_words("and"));
-    is_foreign.then(|| Notice::new(text, hint))
+    let others = GivenFacts { mass: false, ..record.given_facts() }.in_words("and");
+    let hint = format!("if it hovers in this recording, check the mass first, then {others}");
+    is_foreign.then(|| Notice::new(text, hint).of_kind(NoticeKind::CannotHover))
 }
 
 /// That the blade tips would be too fast at the heard speed.
@@ -230,6 +232,9 @@ fn why_no_tone(recording: &Recording, analysed: &Analysed) -> Option<String> {
     may_be_rate.then(|| why_rate_is_low(&analysed.config.tone, recording.info().sample_rate_hz / 2.0)).flatten()
 }
 
+/// A lower tone than that of a gear.
+const OR_BLADES: &str = ", or follow the lower tone of the blades: give --blades N alone";
+
 /// That the tone may lie above what the recording holds, and what to do. `None` where it cannot, or where a band says where it lies.
 fn why_rate_is_low(tone: &ToneConfig, half_rate_hz: f64) -> Option<String> {
     // the search goes beyond the known speeds of the vehicle by a margin
@@ -242,8 +247,9 @@ fn why_rate_is_low(tone: &ToneConfig, half_rate_hz: f64) -> Option<String> {
     Some(if are_speeds_known {
         format!(
             "the sample rate is too low: no sound above {half_rate_khz:.1} kHz is recorded, and the tone at {order} \
-            times the rotor speed may be as high as {:.1} kHz; record at a higher sample rate, or follow a lower tone",
-            tone_hz / 1e3
+            times the rotor speed may be as high as {:.1} kHz; record at a higher sample rate{}",
+            tone_hz / 1e3,
+            if order.lines_per_turn() > BLADES_MAX { OR_BLADES } else { "" }
         )
     } else {
         let blades = if tone.blades.is_none() { "count the blades and give --blades N too, or " } else { "" };

@@ -165,20 +165,21 @@ impl Identified {
         text
     }
 
-    /// The lines to quote: the constants with their ±, and the verdict.
+    /// The lines to quote: the constants with their ±, the verdict, how the rotors were heard, and logs that do not fit.
     pub fn quote(&self) -> String {
         match self.reported().and_then(|table| Some((table, quoted_constants(table)?))) {
             Some((table, constants)) => {
-                let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| format!("; {heard}"));
+                let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| heard + "\n");
                 let failed = match self.identification().failed_check_count() {
                     0 => String::new(),
-                    count => format!("; the speeds in {} do not fit the sound", counted(count, "log")),
+                    count => format!("the speeds in {} do not fit the sound\n", counted(count, "log")),
                 };
-                let verdict = format!("verdict: {}{heard}{failed}", printable(Verdict::of(table).words()));
-                match table.forbids_use() {
+                let verdict = format!("verdict: {}", printable(Verdict::of(table).words()));
+                let first = match table.forbids_use() {
                     true => format!("{verdict}\ndo not use this constant: {constants}\n"),
                     false => format!("{constants}\n{verdict}\n"),
-                }
+                };
+                first + &heard + &failed
             }
             None => "C_f: none, since no recording has a speed\nverdict: nothing is identified\n".to_owned(),
         }

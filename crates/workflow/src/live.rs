@@ -45,7 +45,7 @@ pub fn possible_in_words(possible: &PossibleSpeed) -> String {
         Some(blades) if order.lines_per_turn() == f64::from(blades) => counted(blades as usize, "blade"),
         _ => format!("order {order}"),
     };
-    format!("{speed_rev_s:.1} rev/s, {tone}, probability {:.0} %", 100.0 * belief)
+    format!("{speed_rev_s:.1} rev/s, {tone}, plausibility {:.0} %", 100.0 * belief)
 }
 
 /// "42.4 or 84.7 rev/s", the most probable first; `None` where there are not two different speeds.

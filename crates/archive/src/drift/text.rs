@@ -44,11 +44,14 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         "all recordings of the earlier archive with all of the later one, because no name is in both"
     };
     let or_no_partner = if drift.is_paired { ", or the other archive has no recording of the same name" } else { "" };
-    let unused = format!(
-        "not compared: {} of the earlier archive, {} of the later (no speed was heard{or_no_partner})\n",
-        counted(drift.earlier_unused, "recording"),
-        drift.later_unused
-    );
+    let unused = match drift.earlier_unused + drift.later_unused {
+        0 => String::new(),
+        _ => format!(
+            "not compared: {} of the earlier archive, {} of the later (no speed was heard{or_no_partner})\n",
+            counted(drift.earlier_unused, "recording"),
+            drift.later_unused
+        ),
+    };
     format!(
         "compared: {how}\n{}{}{}{}{unused}{}",
         table_text(&table, width),
@@ -106,7 +109,7 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
     let not_known = not_known_recordings_text(drift);
     if changed.is_empty() {
         let of_known = if not_known.is_empty() { "" } else { ", if its rotors are known" };
-        return format!("no single recording shows a change of speed above its uncertainty{of_known}\n{not_known}");
+        return format!("no single recording shows a clear change of speed{of_known}\n{not_known}");
     }
     changed.sort_by(|one, other| other.change.change_share.abs().total_cmp(&one.change.change_share.abs()));
     let mut table = TextTable::new(vec![
@@ -127,7 +130,7 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
         more => format!("and {more} more changes; --json lists all\n"),
     };
     format!(
-        "\nspeeds of single recordings that have changed, largest change first\n{}{more}{not_known}",
+        "\nrecordings whose speed has changed, largest change first\n{}{more}{not_known}",
         table_text(&table, width)
     )
 }

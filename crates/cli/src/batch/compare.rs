@@ -11,6 +11,13 @@ use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
+/// What to give in place of a folder without results.
+const GIVE_TWO: &str =
+    "run `hovertone batch ARCHIVE -o OUT` for each of the two archives, then give the two OUT folders";
+/// What writes the table of a folder, where its recordings are heard already.
+const RUN_AGAIN: &str =
+    "run the same `hovertone batch` command again: it hears only what is missing, and writes the table";
+
 /// Compares two folders of results.
 pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let (earlier, later) = (Results::read(&arguments.earlier)?, Results::read(&arguments.later)?);
@@ -25,8 +32,8 @@ pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) ->
     }
     if drift.rotors.is_empty() {
         let notice = Notice::new(
-            "the two archives cannot be compared: no recording with the same name has a speed in both folders, and \
-             one folder has fewer than two speeds",
+            "the two archives cannot be compared: no recording of the same name has a speed in both folders, and to \
+             compare the means, each folder needs two recordings with a speed",
             "open overview.html in both folders: it shows which recordings have no speed",
         );
         terminal.warning(&notice, "");
@@ -43,26 +50,23 @@ struct Results {
 
 impl Results {
     fn read(folder: &Path) -> Result<Self, Failure> {
-        let is_none = |what: &str| {
-            Failure::failed(
-                what,
-                "run `hovertone batch ARCHIVE -o OUT` for each of the two archives, then give the two OUT folders",
-                folder,
-            )
-        };
+        let is_none = |what: &str| Failure::failed(what, GIVE_TWO, folder);
         let text = fs::read_to_string(folder.join(IDENTITY)).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound if !folder.exists() => is_none("there is no such folder"),
             _ => is_none("`hovertone batch` did not write this folder"),
         })?;
         let identity: BatchIdentity = serde_json::from_str(&text).map_err(|_| {
-            is_none("batch.json in this folder, the list of its recordings and settings, cannot be read")
+            let what = "batch.json in this folder, the list of its recordings and settings, is damaged";
+            Failure::failed(what, "run `hovertone batch` for this folder again, with --force", folder)
         })?;
         let place = folder.join(RECORDINGS);
-        let file = File::open(&place).map_err(|_| is_none("the table recordings.parquet is missing in this folder"))?;
+        let file = File::open(&place).map_err(|_| {
+            let what = "the table recordings.parquet is missing in this folder, so its batch has not ended";
+            Failure::failed(what, RUN_AGAIN, folder)
+        })?;
         let read = summaries_of_parquet(file);
         let mut summaries = read.map_err(|error| {
-            let hint = "run `hovertone batch` for this archive again";
-            Failure::failed(format!("this file is not a table of recordings: {error}"), hint, &place)
+            Failure::failed(format!("this file is not a table of recordings: {error}"), RUN_AGAIN, &place)
         })?;
         name_below_inputs(&mut summaries, &identity.inputs);
         Ok(Self { identity, summaries })

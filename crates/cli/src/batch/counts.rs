@@ -51,7 +51,7 @@ impl Counts {
 
 impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} with a speed, {} without a rotor tone, {} failed", self.ok, self.no_rotor_tone, self.error)?;
+        write!(f, "{} with a speed, {} without a speed, {} failed", self.ok, self.no_rotor_tone, self.error)?;
         if self.ambiguous > 0 {
             write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }

@@ -31,12 +31,12 @@ impl BatchFolder {
     pub(crate) fn open(path: &Path, outputs: Outputs, identity: &BatchIdentity, shard: Shard) -> Result<Self, Failure> {
         let begins_anew = outputs.may_replace();
         if !begins_anew {
-            refuse_other(path, identity)?;
+            refuse_other(path, identity, shard)?;
         }
         let text = serde_json::to_string_pretty(identity).map_err(Failure::internal)?;
         let run = format!("batch {}", sha256_of_bytes(text.as_bytes()));
         let files = [IDENTITY, super::tables::RECORDINGS, super::tables::OVERVIEW];
-        let content = FolderContent { name: "recordings and settings", run: &run, files: &files };
+        let content = FolderContent { name: "with the same recordings and settings", run: &run, files: &files };
         let folder = OutputFolder::checked(path, outputs, &content)?;
         fs::create_dir_all(path).map_err(|error| Failure::cannot_write(&error, path))?;
         let locks = [lock_of_run(path, shard)?, lock_of_shard(path, shard)?];
@@ -158,10 +158,14 @@ fn is_part(path: &Path) -> bool {
 }
 
 /// Refuses a folder of other recordings or settings, with what differs.
-fn refuse_other(path: &Path, identity: &BatchIdentity) -> Result<(), Failure> {
+fn refuse_other(path: &Path, identity: &BatchIdentity, shard: Shard) -> Result<(), Failure> {
     let place = path.join(IDENTITY);
     let Ok(text) = fs::read_to_string(&place) else { return Ok(()) };
-    let hint = "choose a new folder with -o DIR, or use --force to remove the old results and start again";
+    let hint = match shard.is_whole() {
+        true => "choose a new folder with -o OUT, or use --force to remove the old results and start again",
+        // --force of one job would remove the results of the other jobs
+        false => "choose a new folder with -o OUT for all jobs, or remove this folder before the first job starts",
+    };
     let Ok(there) = serde_json::from_str::<BatchIdentity>(&text) else {
         return Err(refused(
             "this file should list the recordings and settings of the results in its folder, but it cannot be read: nothing was written",
@@ -190,8 +194,8 @@ fn lock_of_shard(path: &Path, shard: Shard) -> Result<File, Failure> {
 fn taken(locked: Result<(), TryLockError>, file: File, place: &Path, other: &str) -> Result<File, Failure> {
     match locked {
         Err(TryLockError::WouldBlock) => {
-            let hint =
-                "wait until the other run ends; to share the work among N jobs, give them --shard 1/N to --shard N/N";
+            let hint = "wait until the other run ends; to share the work among N jobs, give each its own number: \
+                        --shard 1/N to --shard N/N";
             Err(Failure::failed(other, hint, place.parent().unwrap_or(place)))
         }
         Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {

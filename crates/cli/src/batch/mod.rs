@@ -129,7 +129,7 @@ fn say(said: &Said<'_>, wants_json: bool, terminal: &mut Terminal) -> Result<(),
             place(tables::OVERVIEW)
         ),
         None => format!(
-            "job {} has ended: {} heard: {}\nthe job that ends last writes the tables\n",
+            "job {} has ended; it heard {}: {}\nthe job that ends last writes the tables\n",
             said.shard,
             counted(said.heard.total(), "recording"),
             said.heard

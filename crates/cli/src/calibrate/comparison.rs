@@ -222,8 +222,8 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
     let order = comparison.heard.order;
     let known = match comparison.reference {
         Reference::Speed { rpm, .. } => format!(
-            "  the known speed: a tachometer that counts each blade shows a multiple of the speed. If yours does, \
-             give --tachometer-rpm {}\n",
+            "  the known speed: a tachometer with a wrong number of blades in its settings shows a wrong speed. If this \
+             is so, give --tachometer-rpm {}\n",
             to_tenths(rpm * fitting.lines_per_turn() / order.lines_per_turn())
         ),
         Reference::Tone { .. } => "  the known frequency: it may belong to another harmonic of the tone\n".to_owned(),
@@ -293,7 +293,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {
-        "correction of the clock: none is needed, because the difference is smaller than its ±\n".to_owned()
+        "correction of the clock: none, because the difference is smaller than its ±\n".to_owned()
     };
     text
 }

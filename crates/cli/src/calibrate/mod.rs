@@ -17,14 +17,12 @@ use hovertone::sound::HeardBand;
 use hovertone::speed::{Config, NoTone, SpeedAnalysis, Warning};
 use hovertone::tones::Discovery;
 use hovertone_report::{Notice, SpeedRecord, warning_count};
-use hovertone_vehicle::{Order, RotorSpeed, check_range};
+use hovertone_vehicle::{Order, RotorSpeed, SHAFT_REV_S, check_range};
 use std::ops::{Range, RangeInclusive};
 
 const MILLION: f64 = 1e6;
 /// Half of the band around a tone of known frequency in which it is searched, as a share.
 const BAND_SHARE: f64 = 0.025;
-/// Speeds of rotors, rpm. The smallest racers' propellers make 40000.
-const TACHOMETER_RPM: RangeInclusive<f64> = 60.0..=90_000.0;
 /// Tones of recordings, Hz: up to half the largest sample rate of recorders.
 const TRUE_HZ: RangeInclusive<f64> = 1.0..=192_000.0;
 /// Status where several speeds are possible.
@@ -221,8 +219,8 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
             format!(
                 "{heard}. The speed, {rpm:.0} rpm, comes from other tones, such as the blade pass (the tone of the \
                  blades). If the rotor has {number} blades and no gear, \
-                 give --blades {number} alone, in place of {}; if it has this gear, move the microphone nearer",
-                record.given_facts().in_words("and")
+                 give --blades {number} alone, in place of {}; if the order is right, move the microphone nearer",
+                record.given_facts().replaced_by_blades()
             )
         }
     })
@@ -333,7 +331,9 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
                 meant.unwrap_or(("a number is needed, such as 3600".to_owned(), SEE_HELP_OF_SPEED.to_owned()));
             Failure::usage(format!("--tachometer-rpm {typed}: {why}"), hint)
         })?;
-        check_known("tachometer_rpm", rpm, TACHOMETER_RPM)?;
+        let [slowest_rpm, fastest_rpm] =
+            [SHAFT_REV_S.start(), SHAFT_REV_S.end()].map(|rev_s| RotorSpeed::from_rev_s(*rev_s).rpm());
+        check_known("tachometer_rpm", rpm, slowest_rpm..=fastest_rpm)?;
         // the last digit is rounded: half a unit of it is the limit of a rectangular distribution
         let decimals = typed.trim().split_once('.').map_or(0, |(_, decimals)| decimals.len().min(9) as i32);
         let rounded = 0.5 * 10f64.powi(-decimals) / 3f64.sqrt() / rpm;

@@ -20,7 +20,7 @@ pub(super) fn prepare(path: &Path, force: bool) -> Result<OutputFolder, Failure>
     let recordings: Vec<String> = trials().iter().map(|trial| recording_of(&trial.load, trial.number)).collect();
     let own = [EXPERIMENT, TRUTH, TRACKS].into_iter().chain(recordings.iter().map(String::as_str));
     let files: Vec<&str> = own.chain(RESULTS).collect();
-    let content = FolderContent { name: "demo", run: "demo", files: &files };
+    let content = FolderContent { name: "of the same demo", run: "demo", files: &files };
     OutputFolder::prepare(path, Outputs::beside(nothing, force), &content)
 }
 

@@ -74,21 +74,21 @@ pub(super) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
             &own.prediction,
             "heard",
             "fit",
-            "The flight of the fit: speeds, predicted and heard",
+            "The flight that was used for the fit: predicted and heard speeds",
         )?,
         drawn(
             &other.observations,
             &other.prediction,
             "heard",
             "check",
-            "A second flight, which the fit did not use: speeds, predicted and heard",
+            "A second flight, which the fit did not use: predicted and heard speeds",
         )?,
         drawn(
             &beside.truth,
             &beside.identified,
             "true",
             "identified",
-            "The identified model (lines) flies beside the true one (dots)",
+            "The same commands for the identified model (lines) and for the true model (dots)",
         )?,
     ];
     let against_truth = TitledTable::new(TRUTH_TITLE, grey_box_against_truth(&heard.fit, &truth.to_vector()));
@@ -119,7 +119,7 @@ fn prepared(path: &Path, force: bool) -> Result<OutputFolder, Failure> {
     let of_flights: Vec<String> = of_flights.collect();
     let others = [RESULTS, IDENTIFIED, PAGE].into_iter().chain(FIGURES);
     let files: Vec<&str> = of_flights.iter().map(String::as_str).chain(others).collect();
-    let content = FolderContent { name: "demo", run: "demo --low-level", files: &files };
+    let content = FolderContent { name: "of the same demo", run: "demo --low-level", files: &files };
     OutputFolder::prepare(path, Outputs::beside(nothing, force), &content)
 }
 
@@ -253,7 +253,7 @@ fn page(
     let mut tables = vec![against_truth.clone()];
     tables.extend(grey_box_tables(record));
     let lead = [
-        "An AR.Drone flies doublets (the stick to one side, then to the other) for a minute in the open. One \
+        "A simulated AR.Drone flies doublets (the stick to one side, then to the other) for a minute outdoors. One \
          microphone hears its four rotors. The model of the paper's equations 1 and 2 predicts the tones, and is \
          fitted to the heard tones. The fit starts at the numbers of the preset; the true gains differ from the \
          preset by 15 to 25 %."

@@ -71,9 +71,9 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
 const TRUTH_TITLE: &str = "Compared with the simulated truth";
 
 const FOOTNOTE: &str = "
-The paper's columns are printed with the units that their numbers have: rpm, rad/s, and
-1e-5 N s² for the whole vehicle. The paper gives 462 g for the big hull, but it calculated with
-472 g. Here 462 g are flown. With 462 g the paper's speeds give 2.8291 (table 1) and 2.8260 (table 2).
+The columns \"paper\" have the numbers of the paper, in rpm, in rad/s, and in 1e-5 N s² for the whole
+vehicle. For the big hull, the paper gives 462 g but calculated with 472 g, so its C_f is larger there.
+The simulation flies 462 g. With 462 g, the paper's speeds give 2.8291 (table 1) and 2.8260 (table 2).
 ";
 
 fn title_beside_paper(table: &ThrustTable) -> String {

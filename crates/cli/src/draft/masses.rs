@@ -8,6 +8,8 @@ use std::path::Path;
 
 const GRAMS: f64 = 1e3;
 const HINT: &str = "write the mass, in g or kg, before its recordings: --mass 413g=hover.mov, or --mass 0.413=hover.mov, or --mass 413g a.mov b.mov";
+/// Behind a mass that says itself what to write.
+const EXAMPLE: &str = "for example --mass 413g=hover.mov";
 
 /// One load: a mass as flown and its recordings.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +35,7 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
         };
         if let Some(mass) = mass {
             let mass_kg =
-                mass_kg_from_text(mass).map_err(|what| Failure::usage(format!("--mass {word}: {what}"), HINT))?;
+                mass_kg_from_text(mass).map_err(|what| Failure::usage(format!("--mass {word}: {what}"), EXAMPLE))?;
             current_kg = Some(mass_kg);
             put_load(&mut loads, LoadDraft { mass_kg, recordings: Vec::new() });
         }
@@ -54,8 +56,8 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
         if let Some(toml) = file.filter(|file| file.ends_with(".toml")) {
             let what = format!("{toml} comes after --mass, so it counts as a recording");
             let hint = match Path::new(toml).exists() {
-                true => "an experiment file has its own masses: leave --mass out".to_owned(),
-                false => format!("to write a new experiment file, name it with `hovertone init … -o {toml}`"),
+                true => "to use this experiment file, leave --mass out: it has its own masses".to_owned(),
+                false => format!("to write a new experiment file, name it with -o, as in `hovertone init -o {toml}`"),
             };
             return Err(Failure::usage(what, hint));
         }

@@ -121,14 +121,14 @@ impl Draft {
             (
                 vehicle.is_some() || has_tone,
                 if has_rotors {
-                    "--vehicle NAME, or --blades N"
+                    "--vehicle NAME, or --blades N (with a gear, --gear P:W)"
                 } else {
-                    "--vehicle NAME, or both --blades N and --rotors N"
+                    "--vehicle NAME, or both --rotors N and --blades N (with a gear, --rotors N and --gear P:W)"
                 },
             ),
             (
                 vehicle.is_none() || has_tone,
-                "--blades N (hovertone does not know the number of blades of this vehicle)",
+                "--blades N, or --gear P:W for a gear (hovertone does not know the blades of this vehicle)",
             ),
             (has_rotors || !has_tone, "--rotors N"),
             (!self.loads.is_empty(), "--mass KG=FILES, once for each load"),

@@ -27,7 +27,7 @@ impl Draft {
             );
         }
         if let Some(rotors) = self.rotors {
-            text += &line("rotors", &rotors.to_string(), "all that carry it");
+            text += &line("rotors", &rotors.to_string(), "all rotors that carry the vehicle");
         }
         if let Some(blades) = self.blades {
             text += &line("blades", &blades.to_string(), "number of blades of each propeller");
@@ -44,7 +44,13 @@ impl Draft {
         );
         text += &line("mass_std_kg", "0.0005", "the scale shows whole grams");
         text += &self.gravity_lines();
-        text += "\n# [air]                         # for the thrust coefficient C_T\n# temperature_c = 20.0\n# pressure_hpa = 1013.0\n";
+        text += match self.height_m {
+            Some(_) => {
+                "\n[air]                           # for the thrust coefficient C_T; the height alone gives a density too\n"
+            }
+            None => "\n# [air]                         # for the thrust coefficient C_T\n",
+        };
+        text += "# temperature_c = 20.0\n# pressure_hpa = 1013.0\n";
         let names = names_of(&self.loads);
         for (load, name) in self.loads.iter().zip(names) {
             text += &self.load_lines(load, &name);
@@ -54,8 +60,8 @@ impl Draft {
 
     /// The diameter, and why it matters.
     fn diameter_lines(&self, vehicle: Option<&Vehicle>) -> String {
-        const WHY: &str = "# With the diameter and the mass, hovertone can rule out half and double the true speed. \
-                           C_T needs the diameter too.\n";
+        const WHY: &str = "# With the diameter, hovertone can rule out half and double the true speed. The thrust \
+                           coefficient C_T needs it too.\n";
         let of_vehicle = vehicle.and_then(|vehicle| vehicle.propeller_diameter_m).map(|diameter| diameter.value);
         let value = match (self.diameter_m, of_vehicle) {
             (Some(diameter_m), _) => line("propeller_diameter_m", &diameter_m.to_string(), "from tip to tip"),
@@ -90,7 +96,7 @@ impl Draft {
         text += &line(
             "added_mass_kg",
             &added_kg.to_string(),
-            &format!("added to the vehicle: {} in flight", mass_words(load.mass_kg)),
+            &format!("added to mass_kg above: {} in flight", mass_words(load.mass_kg)),
         );
         text += &match &load.recordings[..] {
             [one] => format!("recordings = [{}]\n", quoted(one)),
@@ -156,6 +162,7 @@ mod tests {
             gear: Some(Gear { pinion: 8, wheel: 69 }),
             diameter_m: Some(0.2),
             latitude_deg: Some(-20.0),
+            height_m: Some(500.0),
             loads: loads.clone(),
             ..Draft::default()
         };
@@ -166,6 +173,7 @@ mod tests {
             let file: ExperimentFile = toml::from_str(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
             let experiment = file.resolve(None).unwrap();
             assert_eq!(experiment.rotor_count, rotors);
+            assert_eq!(experiment.air.is_some(), draft.height_m.is_some(), "{text}");
             assert!(experiment.is_weighed && text.contains("half and double the true speed"), "{text}");
             let names: Vec<&str> = experiment.loads.iter().map(|load| load.name.as_str()).collect();
             assert_eq!(names, ["small", "no \"hull\" [1]", "x"]);

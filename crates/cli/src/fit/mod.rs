@@ -221,7 +221,10 @@ fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Fai
         let tips = plan.diameter_m.map(|diameter_m| check_tips(diameter_m, RotorSpeed::from_rad_s(row.speed_rad_s)));
         tips.transpose().map_err(|tips| Failure::Usage {
             what: format!("line {}: {tips}", row.line_number),
-            hint: tips.hint(),
+            hint:
+                "check the diameter (from tip to tip, in metres: 10 inches are 0.254), and the speed in this line and \
+                   its unit"
+                    .to_owned(),
             path: Some(path.to_owned()),
         })?;
     }

@@ -28,6 +28,16 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
                 "check the speeds, the forces and the uncertainties that you stated, and measure more rows",
             )
         }
+        _ if matches!(warning, ThrustWarning::NarrowLoadRange(_)) => Notice::new(
+            warning.to_string(),
+            "C_f is still valid near these forces; to test the law, measure a wider range of forces",
+        ),
+        // a table has no recordings, and no tone
+        _ if matches!(warning, ThrustWarning::ConstantsSplit) => Notice::new(
+            warning.to_string(),
+            "do not use this constant: check the speeds, the forces and their units in all rows, and the number of \
+             rotors; then measure more rows",
+        ),
         columns if is_of_rows && !columns.is_empty() => {
             Notice::new(warning.to_string(), format!("{}; or {} is too small", warning.hint(), columns.join(" or ")))
         }
@@ -110,5 +120,12 @@ mod tests {
         assert!(notice_of(&of_rows, &columns).hint.ends_with("; or thrust_std_g is too small"));
         assert_eq!(notice_of(&of_rows, &[]), Notice::from(&of_rows));
         assert_eq!(notice_of(&ThrustWarning::SingleLoad, &columns), Notice::from(&ThrustWarning::SingleLoad));
+    }
+
+    #[test]
+    fn a_table_is_not_asked_for_a_tone_or_a_flight() {
+        let split = notice_of(&ThrustWarning::ConstantsSplit, &[]).hint;
+        assert!(split.starts_with("do not use this constant: check the speeds"), "{split}");
+        assert!(!split.contains("tone") && !split.contains("load"), "{split}");
     }
 }

@@ -187,7 +187,7 @@ impl FlownLog {
 
 fn left_out(missing: &MissingControl) -> Notice {
     let MissingControl { control_loop, what, hint } = missing;
-    Notice::new(format!("the model has no {}: the log lacks {what}", control_loop.name()), *hint)
+    Notice::new(format!("the model leaves out the control of {}: the log lacks {what}", control_loop.name()), *hint)
 }
 
 /// The failure of a log in which every loop lacks something.

@@ -16,11 +16,15 @@ use crate::outputs::{Outputs, is_recording, written};
 use crate::progress::Progress;
 use crate::recording::Hearing;
 use crate::terminal::Terminal;
+use crate::text_file::{TextFormat, TextKind};
 use hovertone_dynamics::{YawInertia, advice_of, checked, torque_constant};
 use hovertone_figures::{DOTS_PER_INCH, DrawnSpeeds, grey_box_figure};
 use hovertone_logs::RateAxes;
 use hovertone_report::{CheckedFlight, GreyBoxRecord, Notice, grey_box_json, grey_box_text, grey_box_warnings};
 use std::path::{Path, PathBuf};
+
+const SCENARIO: TextKind =
+    TextKind { content: "a scenario", format: TextFormat::Toml, example: "--scenario scenario.toml" };
 
 /// Fits, prints, and writes what was asked for.
 pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -125,6 +129,7 @@ pub(crate) fn record_of(
 fn checked_outputs(arguments: &GreyBoxArguments, outputs: &Outputs) -> Result<Option<FigureKind>, Failure> {
     let kind = |place: &PathBuf| FigureKind::of(place, "use --figure check.png or --figure check.svg");
     let kind = arguments.figure.as_ref().map(kind).transpose()?;
+    arguments.scenario.as_deref().map_or(Ok(()), |place| outputs.check_name(place, SCENARIO))?;
     arguments.figure.iter().chain(&arguments.scenario).try_for_each(|place| outputs.check(place))?;
     Ok(kind)
 }

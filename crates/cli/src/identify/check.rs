@@ -11,12 +11,14 @@ use crate::recording::{Hearing, Job};
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::terminal::Terminal;
 use hovertone::experiment::Experiment;
-use hovertone::thrust::{Force, Gravity};
+use hovertone::thrust::{Force, Gravity, ThrustWarning};
 use hovertone_report::{
-    Notice, PlannedExperiment, PlannedLoad, PlannedRecording, PlannedSound, counted, planned_experiment_text,
+    Notice, PlannedExperiment, PlannedLoad, PlannedRecording, PlannedSound, Wording, counted, planned_experiment_text,
 };
 use std::path::Path;
 
+/// Before anything is heard there is no constant that a person could use.
+const BEFORE_HEARING: Wording = Wording::of_phrases(&[("do not use this constant: ", "")]);
 /// Fewest loads that test the square law well.
 const LOADS_WANTED: usize = 3;
 
@@ -58,8 +60,9 @@ pub(super) fn run(
     faults.iter().for_each(|fault| terminal.error(fault));
     let counts: Vec<usize> = plan.loads.iter().map(|load| load.recordings.len()).collect();
     let warnings = experiment.warnings_before_hearing(&counts);
-    warnings.iter().for_each(|warning| terminal.warning(&Notice::from(warning), ""));
-    wishes_of(experiment).iter().for_each(|wish| terminal.tip(wish));
+    let worded = |warning: &ThrustWarning| Notice::from(warning).worded(BEFORE_HEARING).worded(source.wording);
+    warnings.iter().for_each(|warning| terminal.warning(&worded(warning), ""));
+    wishes_of(experiment, source.typed.is_some()).iter().for_each(|wish| terminal.tip(wish));
     terminal.text(&format!("\n{}", verdict(faults.len(), arguments.output.as_deref())))?;
     Ok(if faults.is_empty() { Ending::Done } else { Ending::FilesFailed })
 }
@@ -100,7 +103,7 @@ fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path)
         }
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!("; {nearby}"));
         let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
-        Notice::new(what, "correct the name, or put the recordings into this folder")
+        Notice::new(what, "correct the name, or put the file there")
     });
     let recordings = plan.loads.iter().flat_map(|load| &load.recordings);
     let broken = recordings.filter_map(|recording| {
@@ -110,8 +113,8 @@ fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path)
     missing.chain(broken).collect()
 }
 
-/// What would make the answer better, beside what the warnings say.
-fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
+/// What would make the answer better, beside what the warnings say. Flags stand in place of the file where the experiment is typed.
+fn wishes_of(experiment: &Experiment, is_typed: bool) -> Vec<Notice> {
     let hovers = || experiment.loads.iter().filter(|load| matches!(load.force, Force::Weight { .. }));
     let has_gravity = !hovers().any(|load| {
         matches!(load.force, Force::Weight { gravity_std_m_s2, .. } if gravity_std_m_s2 >= Gravity::UNKNOWN.std_m_s2)
@@ -121,6 +124,7 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         "{} are only a weak test of the law F = C_f ω²: {LOADS_WANTED} loads or more are better",
         counted(loads, "load")
     );
+    let by = |flags: &'static str, keys: &'static str| if is_typed { flags } else { keys };
     [
         (
             experiment.propeller_diameter_m.is_some(),
@@ -134,20 +138,23 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
                      and double the true speed; C_T needs it too"
                 }
             },
-            "write propeller_diameter_m under [vehicle]; without an experiment file, give --diameter-m",
+            by("measure it from tip to tip, and give --diameter-m", "write propeller_diameter_m under [vehicle]"),
         ),
         (
             has_gravity,
-            "the place of the flight is not given, and gravity differs by 0.5 % on Earth",
-            "write latitude_deg and height_m under [vehicle]; without an experiment file, give --latitude-deg",
+            "the place of the flight is not given, and gravity differs by 0.5 % on Earth: so the ± is larger",
+            by("give --latitude-deg", "write latitude_deg and height_m under [vehicle]"),
         ),
         (
             experiment.air.is_some(),
             "the density of the air is not given: the thrust coefficient C_T needs it and is left out; the thrust \
              constant C_f does not need it",
-            "write [air] with temperature_c and pressure_hpa in an experiment file",
+            by(
+                "give --height-m and --latitude-deg",
+                "write [air] with temperature_c and pressure_hpa into the experiment file",
+            ),
         ),
-        (loads == 1 || loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),
+        (loads == 1 || loads >= LOADS_WANTED, few.as_str(), "add a heavier load: the ± becomes smaller too"),
     ]
     .into_iter()
     .filter(|(is_there, ..)| !is_there)

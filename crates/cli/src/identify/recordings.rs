@@ -71,7 +71,7 @@ pub(super) fn found_recordings<'a>(
 ) -> Result<FoundRecordings<'a>, Failure> {
     let root = data_root.unwrap_or(&source.folder);
     if !root.is_dir() && data_root.is_some() {
-        let hint = "give the folder that holds the recordings with --data-root DIR";
+        let hint = "correct the name after --data-root: it must be the folder that holds the recordings";
         return Err(Failure::failed("there is no such folder", hint, root));
     }
     let (mut jobs, mut missing): (Vec<LoadJob>, Vec<Missing<'_>>) = (Vec::new(), Vec::new());
@@ -174,10 +174,10 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
     } else if source.typed.is_some() {
         "correct the names: they are relative to the current folder, or to the folder of --data-root".to_owned()
     } else if is_root_given {
-        format!("put the recordings into the folder of --data-root, or give another folder{notes}")
+        format!("correct the names, put the files into the folder of --data-root, or give another folder{notes}")
     } else {
         format!(
-            "correct the names, put the recordings beside the experiment file, or give their folder: --data-root DIR{notes}"
+            "correct the names, put the files beside the experiment file, or give their folder: --data-root DIR{notes}"
         )
     };
     match source.typed {

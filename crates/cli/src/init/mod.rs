@@ -13,6 +13,7 @@ use crate::recording::Hearing;
 use crate::recording_files::recordings_of;
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::terminal::{Terminal, width_of};
+use crate::text_file::{TextFormat, TextKind};
 use crate::typed::quoted;
 use crate::vehicles::preset;
 use dialog::Dialog;
@@ -21,10 +22,15 @@ use hovertone_vehicle::Vehicle;
 use std::io::{self, IsTerminal};
 use std::path::Path;
 
+const EXPERIMENT: TextKind =
+    TextKind { content: "an experiment file", format: TextFormat::Toml, example: "-o experiment.toml" };
+
 /// Asks for what the flags leave out, and writes the file.
 pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let nothing: [&Path; 0] = [];
-    Outputs::beside(nothing, arguments.replace.force).check(&arguments.output)?;
+    let outputs = Outputs::beside(nothing, arguments.replace.force);
+    outputs.check_name(&arguments.output, EXPERIMENT)?;
+    outputs.check(&arguments.output)?;
     let vehicle = arguments.draft.vehicle.as_deref().map(preset).transpose()?;
     let draft = with_recordings(Draft::from_arguments(&arguments.draft, vehicle)?)?;
     let can_ask = io::stdin().is_terminal() && io::stderr().is_terminal();
@@ -36,8 +42,8 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
             &mut Dialog::new(io::stdin().lock(), io::stderr(), width_of(&io::stderr())),
         )?,
         missing => {
-            let what = format!("this is not a terminal, so init cannot ask questions. Add: {}", missing.join("; "));
-            return Err(Failure::usage(what, "or run `hovertone init` in a terminal"));
+            let what = format!("init cannot ask for {}, because this is not a terminal", missing.join("; and "));
+            return Err(Failure::usage(what, "add the missing flags, or run `hovertone init` in a terminal"));
         }
     };
     let vehicle = draft.preset.as_deref().map(preset).transpose()?;

@@ -45,8 +45,10 @@ pub(super) fn complete<R: BufRead, W: Write>(
     let knows_diameter = vehicle.is_some_and(|vehicle| vehicle.propeller_diameter_m.is_some());
     if draft.diameter_m.is_none() && !knows_diameter {
         dialog.say("\nWith the diameter of the propellers, hovertone can rule out half and double the true speed.");
-        draft.diameter_m =
-            dialog.ask("Diameter from tip to tip, such as 200mm, 8in or 0.2 (in m) [not known]:", diameter_m)?;
+        draft.diameter_m = dialog.ask(
+            "Diameter of a propeller from tip to tip, such as 200mm, 8in or 0.2 (in m) [not known]:",
+            diameter_m,
+        )?;
     }
     if draft.loads.is_empty() {
         draft.loads = ask_loads(vehicle, folder, dialog)?;
@@ -58,7 +60,7 @@ pub(super) fn complete<R: BufRead, W: Write>(
 fn ask_vehicle<R: BufRead, W: Write>(known: &[Vehicle], dialog: &mut Dialog<R, W>) -> Result<Option<String>, Failure> {
     let names: Vec<&str> = known.iter().map(|vehicle| vehicle.id).collect();
     wrapped(&format!("Known vehicles: {}", names.join(", ")), WIDTH).iter().for_each(|line| dialog.say(line));
-    dialog.ask("Vehicle [another one]:", |answer| match answer {
+    dialog.ask("Vehicle [none of these]:", |answer| match answer {
         None => Ok(None),
         Some(typed) if names.contains(&typed) => Ok(Some(typed.to_owned())),
         Some(typed) => Err(match nearest(typed, names.iter().copied()) {
@@ -78,8 +80,8 @@ fn ask_loads<R: BufRead, W: Write>(
     let found = offered(folder);
     if !found.is_empty() {
         dialog.say(
-            "\nFor each line, give the mass in flight, with battery and load, in kg (0.413) or g (413g). Press \
-             Enter to leave the recordings out.",
+            "\nFor each name, give the mass in flight, with battery and load, in kg (0.413) or g (413g). Press \
+             Enter to leave these recordings out.",
         );
     }
     for Offer { name, words } in found {
@@ -90,18 +92,20 @@ fn ask_loads<R: BufRead, W: Write>(
     }
     loop {
         let (question, ends) = match loads.is_empty() {
-            true => ("\nRecordings of a load, as a folder, a file or a pattern:", false),
-            false => ("More recordings, as a folder, a file or a pattern [no more]:", true),
+            true => ("\nRecordings with one mass, as a folder, a file or a pattern such as *.mov:", false),
+            false => ("More recordings with one mass, as a folder, a file or a pattern [no more]:", true),
         };
         let names = dialog.ask(question, |answer| match answer {
             None if ends => Ok(Vec::new()),
-            None => Err("Name the recordings of one load, such as no_hull or no_hull/*.mov.".to_owned()),
+            None => {
+                Err("A recording is needed, such as hover.mov, or a folder of recordings with one mass.".to_owned())
+            }
             Some(typed) => names_of(typed, folder),
         })?;
         if names.is_empty() {
             return Ok(loads);
         }
-        let question = "Mass as flown with them:";
+        let question = "Mass in flight in these recordings, in kg (0.413) or g (413g):";
         let mass_kg = dialog.ask(question, |answer| match optional_mass(answer, vehicle)? {
             Some(mass_kg) => Ok(mass_kg),
             None => Err("A mass is needed, in kg (0.413) or g (413g).".to_owned()),
@@ -173,7 +177,7 @@ fn diameter_m(answer: Option<&str>) -> Result<Option<f64>, String> {
     let Some(typed) = answer else { return Ok(None) };
     match length_m(typed).ok().filter(|length_m| PROPELLER_DIAMETER_M.contains(length_m)) {
         Some(length_m) => Ok(Some(length_m)),
-        None => Err("A length from 10 mm to 10 m is needed, such as 200mm, 8in or 0.2.".to_owned()),
+        None => Err("A length from 10 mm to 10 m is needed, such as 200mm, 8in or 0.2 (in m).".to_owned()),
     }
 }
 

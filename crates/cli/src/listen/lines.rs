@@ -10,7 +10,7 @@ use hovertone_workflow::{LiveLine, live_remark, live_status_in_words, live_words
 const SPEEDS_PER_LINE: usize = 10;
 /// Names of the columns, above the first line.
 const HEAD: &str =
-    "      time       level  mean speed of the rotors (± covers 95 % of cases; 0 dB: a sine at full scale)\n";
+    "      time       level  mean speed of the rotors (± covers 95 % of cases; 0 dB: the loudest possible sine)\n";
 
 /// One line of JSON.
 pub(crate) fn json_line(speed: &LiveSpeed, listener: &Listener) -> Result<String, Failure> {

@@ -27,14 +27,17 @@ pub(crate) struct Microphone {
 impl Microphone {
     /// Opens the device that the system names as its microphone. `channel`: number of the channel, counted from 1; the mean of all where absent.
     pub(crate) fn open(channel: Option<usize>) -> Result<Self, Failure> {
-        let device = cpal::default_host()
-            .default_input_device()
-            .ok_or_else(|| Failure::usage("this computer has no microphone", "give --from-file FILE"))?;
+        let device = cpal::default_host().default_input_device().ok_or_else(|| {
+            Failure::usage(
+                "no microphone was found on this computer",
+                "plug one in, or give a recording with --from-file FILE",
+            )
+        })?;
         let config = device.default_input_config().map_err(|error| failed(&error))?;
         let count = usize::from(config.channels());
         if let Some(asked) = channel.filter(|asked| !(1..=count).contains(asked)) {
             let what = format!(
-                "channel {asked} does not exist: the microphone has {}, numbered from 1",
+                "channel {asked} does not exist: the microphone has {}, counted from 1",
                 counted(count, "channel")
             );
             return Err(Failure::usage(
@@ -49,7 +52,12 @@ impl Microphone {
             SampleFormat::I16 => stream_of::<i16>(&device, &config, mix),
             SampleFormat::I32 => stream_of::<i32>(&device, &config, mix),
             SampleFormat::U16 => stream_of::<u16>(&device, &config, mix),
-            other => return Err(failed(&format!("its sound has the format {other}, which hovertone cannot read"))),
+            other => {
+                return Err(Failure::usage(
+                    format!("the microphone sends samples in the format {other}, which hovertone cannot read"),
+                    "choose another microphone in the settings of the system, or give a recording with --from-file FILE",
+                ));
+            }
         }?;
         stream.play().map_err(|error| failed(&error))?;
         Ok(Self {

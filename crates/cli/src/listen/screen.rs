@@ -176,7 +176,7 @@ fn draw_choices(frame: &mut Frame<'_>, area: Rect, view: &View) {
         return;
     }
     let first = Line::from(format!(
-        " Which speed is right? Press its number. Or start again, and {}.",
+        " Which speed is right? Press its number. Or quit, start again, and {}.",
         view.advice.which_is_right()
     ));
     let line = |(index, choice): (usize, &String)| Line::from(format!("   {}  {choice}", index + 1));

@@ -82,8 +82,8 @@ impl ScenarioSource {
             false => ("mass_kg", vehicle_kg),
         };
         let what = format!(
-            "{key} = {mass_kg}: the vehicle is too heavy to hover: its motors would need {needed_v:.0} V, but its \
-             battery has {battery_v:.1} V"
+            "{key} = {mass_kg}: the vehicle is too heavy to hover, because its motors would need {needed_v:.0} V, and \
+             its battery has {battery_v:.1} V"
         );
         let hint = if mass_kg > MASS_ALONE_KG_MAX {
             format!("masses are in kilograms: for {mass_kg} g write {}", mass_kg / 1e3)

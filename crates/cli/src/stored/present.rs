@@ -2,7 +2,7 @@
 
 use super::StoredRecording;
 use crate::failure::Failure;
-use crate::recording_files::is_recording;
+use crate::recording_files::has_ending_of_recording;
 use hovertone_media::{FileAccess, MediaError, OpenOptions, Recording};
 use hovertone_stores::{Address, Patience, Service, StoreError, StoredFile, Stores};
 use std::io::Read;
@@ -43,7 +43,7 @@ fn recordings(path: &Path) -> Result<Vec<StoredRecording>, StoreError> {
         state: listed.state,
     };
     let is_web = address.service() == Service::Web;
-    if !address.is_folder() && (is_web || is_recording(path)) {
+    if !address.is_folder() && (is_web || has_ending_of_recording(path)) {
         match stores.found(&address) {
             // in a bucket, a folder may be named as a recording
             Err(StoreError::NotFound) if !is_web => {}
@@ -51,7 +51,7 @@ fn recordings(path: &Path) -> Result<Vec<StoredRecording>, StoreError> {
         }
     }
     let below = stores.below(&address)?.into_iter().map(stored);
-    Ok(below.filter(|recording| is_recording(&recording.path)).collect())
+    Ok(below.filter(|recording| has_ending_of_recording(&recording.path)).collect())
 }
 
 /// The text at an address.

@@ -15,11 +15,13 @@ fn identify_names_keys_of_its_file_and_flags_of_its_own() {
     let content = "[vehicle]\npreset = \"ardrone\"\n[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";
     fs::write(&experiment, content).unwrap();
     let by_file = hovertone(&["identify", text(&experiment)]).ends_with(0);
-    assert!(by_file.stderr.contains("write in the experiment file, under [vehicle], rotors = N"), "{}", by_file.stderr);
+    assert!(!by_file.stderr.contains("rotors = N"), "{}", by_file.stderr);
+    assert!(by_file.stderr.contains("on a bench, write rotors_running = N under its [[load]]"), "{}", by_file.stderr);
     assert!(!by_file.stderr.contains("--"), "{}", by_file.stderr);
     let load = format!("413g={}", text(&sound));
     let by_flags = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(0);
-    assert!(by_flags.stderr.contains("give their number with --rotors"), "{}", by_flags.stderr);
+    assert!(by_flags.stderr.contains("C_f uses their mean speed"), "{}", by_flags.stderr);
+    assert!(!by_flags.stderr.contains("--rotors"), "{}", by_flags.stderr);
 
     write_noise(&sound, 3.0);
     let by_file = hovertone(&["identify", text(&experiment)]).ends_with(3);
@@ -106,8 +108,14 @@ fn numbers_and_words_of_other_programs_are_told_as_this_one_takes_them() {
 fn a_gear_in_the_spelling_of_the_flag_is_told_that_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let experiment = folder.path().join("e.toml");
-    fs::write(&experiment, "[vehicle]\nrotors = 4\ngear = \"8:69\"\n").unwrap();
-    refused_with(&["identify", text(&experiment)], &["gear = { pinion = 8, wheel = 69 }"]);
+    for gear in ["\"8:69\"", "8:69"] {
+        fs::write(&experiment, format!("[vehicle]\nrotors = 4\ngear = {gear}\n")).unwrap();
+        refused_with(&["identify", text(&experiment)], &["gear = { pinion = 8, wheel = 69 }"]);
+    }
+    let words = "[vehicle]\n".encode_utf16().flat_map(u16::to_le_bytes);
+    fs::write(&experiment, [0xff, 0xfe].into_iter().chain(words).collect::<Vec<u8>>()).unwrap();
+    let utf16 = hovertone(&["identify", text(&experiment)]).ends_with(1);
+    assert!(utf16.stderr.contains("text in UTF-16") && utf16.stderr.contains("as UTF-8"), "{}", utf16.stderr);
 }
 
 const RATE_HZ: u32 = 16_000;

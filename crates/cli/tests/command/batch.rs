@@ -303,6 +303,10 @@ fn a_second_run_in_the_same_folder_is_refused() {
     lock.lock_shared().unwrap();
     let run = batch(&archive, &out, &[]).ends_with(1);
     assert!(run.stderr.contains("another run of hovertone"), "{}", run.stderr);
+    // one job cannot begin again for all: --force is refused beside --shard
+    let other = batch(&archive, &out, &["--shard", "1/100", "--channel", "1"]).ends_with(2);
+    assert!(other.stderr.contains("for all jobs, or remove this folder"), "{}", other.stderr);
+    assert!(!other.stderr.contains("--force"), "{}", other.stderr);
     // a job beside other jobs is none
     batch(&archive, &out, &["--shard", "2/100"]).ends_with(0);
     drop(lock);
@@ -351,6 +355,9 @@ fn a_comparison_names_what_has_changed() {
     assert!(itself["is_labelled"] == false && itself["rotors"][0]["is_rotor_known"] == true, "{itself}");
     let none = hovertone(&["batch-compare", text(&at("old")), words[2]]).ends_with(1);
     assert!(none.stderr.contains("`hovertone batch` did not write this folder"), "{}", none.stderr);
+    fs::remove_file(at("out_old").join("recordings.parquet")).unwrap();
+    let begun = hovertone(&words).ends_with(1).stderr;
+    assert!(begun.contains("its batch has not ended (hint: run the same `hovertone batch` command again"), "{begun}");
 }
 
 /// A name that is no text in UTF-8 is shown as well as it can be, and its recording is heard.
@@ -382,7 +389,7 @@ fn the_progress_bar_has_the_counts_and_the_time_left() {
         return;
     };
     let shown = String::from_utf8_lossy(&output.stdout).into_owned();
-    for words in ["hearing 5 recordings", " of 5: ", " with a speed, 0 without a rotor tone, ", " left"] {
+    for words in ["hearing 5 recordings", " of 5: ", " with a speed, 0 without a speed, ", " left"] {
         assert!(shown.contains(words), "{words}: {shown}");
     }
 }

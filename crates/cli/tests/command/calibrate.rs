@@ -107,7 +107,7 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     for words in [
         "order (lines per turn): fail",
         "the order, 1: it may be 2. If so, give --order 2",
-        "the known speed: a tachometer that counts each blade shows a multiple of the speed. If yours does, give --tachometer-rpm 42000",
+        "the known speed: a tachometer with a wrong number of blades in its settings shows a wrong speed. If this is so, give --tachometer-rpm 42000",
         "--order 2",
         "--band 341",
         "\nresult: fail (order of the tone)\n",

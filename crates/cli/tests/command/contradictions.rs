@@ -115,8 +115,8 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     for (more, words) in [
         (&["--rotors", "8"][..], ["with 4 rotors", "--rotors says 8", "leave --rotors out"]),
         (&["--rotors", "2"], ["with 4 rotors", "--rotors says 2", "leave --rotors out"]),
-        (&["--order", "46"], ["tone of order 69", "say 46", "leave --order"]),
-        (&["--blades", "3"], ["tone of order 69", "say 3", "leave --order"]),
+        (&["--order", "46"], ["tone of order 69", "by --order the order is 46", "leave --order"]),
+        (&["--blades", "3"], ["tone of order 69", "by --blades the order is 3", "leave --blades"]),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }
@@ -249,4 +249,15 @@ fn a_speed_at_which_the_vehicle_cannot_hover_is_said() {
     let is_said = ["cannot hover at 61.3 rev/s", "contradict"].iter().any(|words| heavy.contains(words));
     assert!(is_said, "{heavy}");
     assert!(!heard("0.413").contains("cannot hover"));
+    // a payload hovers too, and its mass is what is weighed
+    let weigh = ["weigh", text(&sound), "--constant-n-s2", "2.83e-5", "--mass-kg", "0.06"];
+    let weighed = hovertone(&[&weigh[..], &facts[..]].concat()).stderr;
+    assert!(!weighed.contains("cannot hover"), "{weighed}");
+    // a known vehicle with a mass of its own: the mass is named too, and the answer is doubtful
+    write_hover(&sound, steady_hover("crazyflie", RotorSpeed::from_rev_s(327.0), 5.0));
+    let loaded = hovertone(&["speed", text(&sound), "--vehicle", "crazyflie", "--mass-kg", "0.2"]).ends_with(3);
+    let is_mass_named = ["the mass first, then the vehicle", "the vehicle and the mass"]
+        .iter()
+        .any(|words| loaded.stderr.contains(words));
+    assert!(is_mass_named, "{}", loaded.stderr);
 }

@@ -107,7 +107,7 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
     let run = hovertone(&["identify", &file, "-o", text(&out)]).ends_with(3);
     let failed = "the speeds in half.csv do not fit the sound: the heard speeds are 2.00 times the logged speeds";
     assert!(run.stderr.contains(failed), "{}", run.stderr);
-    assert!(run.stdout.contains("; the speeds in 1 log do not fit the sound"), "{}", run.stdout);
+    assert!(run.stdout.contains("\nthe speeds in 1 log do not fit the sound\n"), "{}", run.stdout);
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains(failed));
 
     // without a log nothing of it is said

@@ -183,7 +183,7 @@ fn recordings_that_are_not_there_are_named() {
     let root = text(elsewhere.path());
     says(
         hovertone(&["identify", text(&path), "--data-root", root]),
-        &["big/*.mov", root, "put the recordings into the folder"],
+        &["big/*.mov", root, "put the files into the folder"],
     );
     let nowhere = hovertone(&["identify", text(&path), "--data-root", "/no/such/folder"]).ends_with(1);
     assert!(nowhere.stderr.contains("no such folder"), "{}", nowhere.stderr);

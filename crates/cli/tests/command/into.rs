@@ -91,6 +91,28 @@ fn a_number_that_a_model_has_already_is_said_to_be_there() {
     assert!(without.stderr.contains(absent) && !without.stderr.contains(there), "{}", without.stderr);
 }
 
+/// A format without a place for a number: the advice names the formats that have one, or the other number that C_T needs.
+#[test]
+fn a_number_without_a_place_is_told_a_format_that_has_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let said = |words: &[&str]| export(&results, words).ends_with(0).stderr;
+    let command = said(&["--to", "json", "--hover-command", "0.5"]);
+    assert!(command.contains("--hover-command changes nothing: the thrust in a hover needs the mass"), "{command}");
+    let density = said(&["--to", "flightmare", "--air-density-kg-m3", "1.2"]);
+    assert!(!density.contains("changes nothing"), "the results have the diameter: {density}");
+    let bare = folder.path().join("bare.csv");
+    fs::write(&bare, "rpm,thrust_n\n3000,0.70\n3600,1.00\n4200,1.38\n5000,1.94\n").unwrap();
+    let without_diameter = folder.path().join("bare.json");
+    fs::write(&without_diameter, hovertone(&["fit", "--json", text(&bare)]).ends_with(0).stdout).unwrap();
+    let said = |words: &[&str]| export(&without_diameter, words).ends_with(0).stderr;
+    let diameter = said(&["--to", "flightmare", "--diameter-m", "0.2"]);
+    assert!(diameter.contains("give --air-density-kg-m3 too"), "{diameter}");
+    let density = said(&["--to", "flightmare", "--air-density-kg-m3", "1.2"]);
+    assert!(density.contains("C_T needs the diameter of the propellers too"), "{density}");
+    assert!(density.contains("give --diameter-m too, or leave --air-density-kg-m3 out"), "{density}");
+}
+
 #[test]
 fn a_constant_that_is_an_expression_is_said_to_be() {
     let folder = tempfile::tempdir().unwrap();

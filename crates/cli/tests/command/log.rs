@@ -95,7 +95,7 @@ fn what_has_no_meaning_is_refused_with_what_to_do() {
     let recording = hovertone(&["log", text(&sound)]).ends_with(1).stderr;
     assert!(recording.contains("this is a recording, but a log is needed"), "{recording}");
     refused_with(&["log", &log, &log, "--signal", "table", "-o", "x.csv"], &["2 logs are given", "one log at a time"]);
-    refused_with(&["log", &log, "--signal", "table"], &["--signal needs a file for the signal too: -o FILE.csv"]);
+    refused_with(&["log", &log, "--signal", "table"], &["--signal needs a file for the signal too (-o FILE.csv)"]);
 }
 
 #[test]
@@ -123,5 +123,11 @@ fn a_damaged_log_gives_what_it_holds_and_says_what_is_lost() {
     let (lost, place) = (line["lost_bytes"].as_u64().unwrap(), &line["lost_places"][0]);
     assert!((2000..4000).contains(&lost) && line["lost_place_count"] == 1, "{lost}");
     assert!(place["from_byte"].as_u64().unwrap() <= 300_000 && place["after_s"].as_f64().unwrap() > 5080.0);
-    assert!(run.stderr.contains("the log is damaged: ") && run.stderr.contains("hint: download"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("the log is damaged: ") && run.stderr.contains("hint: hovertone used"),
+        "{}",
+        run.stderr
+    );
+    // a second download can be the same
+    assert!(run.stderr.contains("If the new copy has the same fault, log another flight"), "{}", run.stderr);
 }

@@ -69,7 +69,7 @@ fn faults_of_a_file_are_told_in_plain_words() {
             format!("{vehicle}mass_kg = \"0.4\"\n"),
             ["has \"0.4\" where a number is needed", "write a number"],
         ),
-        ("identify", format!("{vehicle}mass_kg = 0,4\n"), ["more than one key", "write decimals with a point"]),
+        ("identify", format!("{vehicle}mass_kg = 0,4\n"), ["something after the value", "write decimals with a point"]),
         (
             "identify",
             format!("{vehicle}rotors = 4.5\n"),
@@ -213,7 +213,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
             "error: there is no flag --log (hint: write the log after the recording, without a flag)",
         ),
         ("sped a.wav", "error: there is no command \"sped\" (hint: did you mean speed?)"),
-        ("export a.json", "error: export needs a format or a model: --to FORMAT or --into MODEL (hint: "),
+        ("export a.json", "error: export needs a format (--to FORMAT) or a model (--into MODEL) (hint: "),
     ] {
         let run = hovertone(&arguments.split(' ').collect::<Vec<_>>()).ends_with(2);
         let all = lines(&run);

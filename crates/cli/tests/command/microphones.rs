@@ -55,7 +55,7 @@ fn rotors_are_named_by_the_channels_of_a_recording() {
     fs::write(&file, &STANDS[..STANDS.rfind("[[").unwrap()]).unwrap();
     let refused =
         hovertone(&["speed", "--vehicle", "ardrone", "--microphones", text(&file), text(&sound)]).ends_with(2);
-    for words in ["the recording has 3 channels", "2 microphones have a position", "hint:", "sound.wav"] {
+    for words in ["the recording has 3 channels", "microphones with a position is 2", "hint:", "sound.wav"] {
         assert!(refused.stderr.contains(words) && refused.stdout.is_empty(), "{words}:\n{}", refused.stderr);
     }
 }
@@ -76,7 +76,11 @@ fn a_file_that_cannot_be_used_is_refused_with_what_to_do() {
     refused(&format!("position_std_m = 0.0\n{STANDS}"), &vehicle, &["position_std_m", "0.001"]);
     refused("[[microphone]]\nposition_m = [1.0, 2.0]\n", &vehicle, &["stands.toml:2"]);
     refused(&format!("{STANDS}[[microphone]]\nposition_m = [nan, 0, 0]\n"), &vehicle, &["microphone 4", "metres"]);
-    refused(STANDS, &["--vehicle", "ardrone", "--rotors", "3"], &["3 rotors turn, but 4 rotors have a position"]);
+    refused(
+        STANDS,
+        &["--vehicle", "ardrone", "--rotors", "3"],
+        &["3 rotors turn, but the number of rotors with a position is 4"],
+    );
     let both = hovertone(&["speed", "a.wav", "--microphones", "b.toml", "--log", "c.csv"]).ends_with(2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
     let missing = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--microphones", "missing.toml"]).ends_with(1);

@@ -257,7 +257,7 @@ fn what_is_neither_log_nor_recording_ends_with_a_sentence() {
     let noise = folder.path().join("noise.wav");
     crate::testkit::write_noise(&noise, 6.0);
     let run = hovertone(&["motor", text(&noise), "--blades", "2"]).ends_with(3);
-    assert!(run.stdout.contains("no rotor tone"), "{}", run.stdout);
+    assert!(run.stdout.contains("no time constant: "), "{}", run.stdout);
     let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n");
     let run = hovertone(&["motor", text(&noise), "--commands", &flat]).ends_with(1);
     assert!(run.stderr.contains("has no motor commands") && run.stderr.contains("motor1_pwm"), "{}", run.stderr);

@@ -197,7 +197,7 @@ fn one_weighing_is_of_one_load() {
     let folder = tempfile::tempdir().unwrap();
     let [light, heavy] = [0.413, 0.462].map(|mass_kg| hover(folder.path(), mass_kg));
     let weigh = ["weigh", text(&heavy), text(&light), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone"];
-    refused_with(&weigh, &["do not have the same mass", "413g.wav has 41", "462g.wav has 46", "of each load"]);
+    refused_with(&weigh, &["are of different loads", "weighs 41", " g in ", "413g.wav and 46", "of each load"]);
 }
 
 #[test]

@@ -85,16 +85,18 @@ fn the_constant_of_one_rotor_has_one_uncertainty_in_every_output() {
 }
 
 #[test]
-fn identify_ends_with_three_lines_and_warnings_stand_above_counted() {
+fn identify_ends_with_four_lines_and_warnings_stand_above_counted() {
     let Identified { folder: _folder, out, run, .. } = identified(&[]);
     let lines: Vec<&str> = run.stdout.lines().collect();
-    let [.., constants, verdict, page] = lines.as_slice() else { panic!("{}", run.stdout) };
+    let [.., constants, verdict, heard, page] = lines.as_slice() else { panic!("{}", run.stdout) };
     assert!(constants.starts_with("C_f = (") && constants.contains("for one rotor, ("), "{constants}");
     assert!(constants.contains("for the whole vehicle; ± is "), "{constants}");
     assert!(verdict.starts_with("verdict: every load agrees with the others"), "{verdict}");
+    assert!(!verdict.contains("rotors"), "{verdict}");
+    assert_eq!(*heard, "rotors heard as a group in 4 recordings");
     assert_eq!(*page, format!("page: {}", out.join("report.html").display()));
-    // a headline and these three; the tables are in the files
-    assert_eq!(lines.len(), 4, "{}", run.stdout);
+    // a headline and these four; the tables are in the files
+    assert_eq!(lines.len(), 5, "{}", run.stdout);
     assert!(!run.stdout.contains('─'), "{}", run.stdout);
     let count = run.stderr.matches("warning: ").count();
     assert!(count > 0, "this test needs a warning");
@@ -126,6 +128,10 @@ fn rotors_that_are_heard_as_a_group_are_called_that() {
         assert!(!output.contains("rotors separated") && !output.contains("told apart"), "{what}");
     }
     let sound = out.parent().unwrap().join("load0/trial0.wav");
+    let written = out.join("results.json");
+    let command = hovertone(&["export", text(&written), "--to", "json", "--hover-command", "0.5"]).ends_with(0).stderr;
+    assert!(command.contains("--hover-command changes nothing: the format json has no number for it"), "{command}");
+    assert!(command.contains("a number for it: --to gazebo, ") && command.contains(" or yaml)"), "{command}");
     let alone = hovertone(&["speed", "--vehicle", "ardrone", "--json", text(&sound)]).ends_with(0);
     assert_eq!(alone.json_lines()[0]["rotors_heard"], "group");
 }

@@ -94,6 +94,27 @@ fn a_recording_of_a_new_experiment_is_not_replaced_by_its_file() {
     }
 }
 
+/// A table that is named as a sound or a picture would be opened with the wrong program.
+#[test]
+fn a_name_that_promises_another_kind_of_file_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = noise(folder.path(), "hover.wav");
+    let log = folder.path().join("flight.csv");
+    fs::write(&log, "time_s,motor_1_rpm\n0,3600\n1,3600\n").unwrap();
+    let mass = format!("413g={}", text(&wav));
+    for name in ["out.wav", "out.MP4", "out.png"] {
+        let place = folder.path().join(name);
+        let out = text(&place);
+        refused_with(
+            &["speed", "--blades", "2", text(&wav), "--track", out],
+            &["a track is written as CSV", "track.csv"],
+        );
+        refused_with(&["log", text(&log), "--signal", "motor_1_rpm", "-o", out], &["written as CSV", "-o signals.csv"]);
+        refused_with(&["init", "--vehicle", "ardrone", "--mass", &mass, "-o", out], &["as TOML", "-o experiment.toml"]);
+        assert!(!place.exists(), "{name}");
+    }
+}
+
 #[test]
 fn the_files_that_experiments_and_scenarios_read_are_inputs() {
     let folder = tempfile::tempdir().unwrap();
@@ -146,7 +167,7 @@ fn an_existing_file_is_replaced_only_by_force() {
     // and so does what ends without a track
     fs::write(&track, "precious").unwrap();
     let noise = hovertone(&["speed", "--blades", "2", text(&wav), "--track", text(&track), "--force"]).ends_with(3);
-    assert!(noise.stderr.contains("--track wrote no file: no rotor was heard"), "{}", noise.stderr);
+    assert!(noise.stderr.contains("--track wrote no file, because no recording has a speed"), "{}", noise.stderr);
     assert_eq!(fs::read(&track).unwrap(), b"precious");
     let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().contains("unfinished")), "{left:?}");

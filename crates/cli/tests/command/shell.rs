@@ -83,7 +83,7 @@ fn man_pages_of_the_program_and_of_every_command() {
     fs::write(folder.path().join("notes.txt"), "precious").unwrap();
     refused_with(
         &["man", "-o", text(folder.path())],
-        &["has files that do not come from an earlier run", "same man pages", "--force"],
+        &["has files that do not come from an earlier run", "same command", "--force"],
     );
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     refused_with(&["man", "spead"], &["did you mean \"speed\""]);

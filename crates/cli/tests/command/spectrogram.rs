@@ -65,7 +65,11 @@ fn wrong_use_is_answered() {
     };
     let (jpg, png) = (folder.path().join("x.jpg"), folder.path().join("x.png"));
     refused(&["spectrogram", text(&wav), "-o", text(&jpg)], 2, ".png");
-    refused(&["spectrogram", "--blades", "2", text(&wav), "-o", text(&png)], 3, "no picture was written: it needs");
+    refused(
+        &["spectrogram", "--blades", "2", text(&wav), "-o", text(&png)],
+        3,
+        "no picture was written, because a picture needs",
+    );
     refused(&["spectrogram", "--blades", "2", "nowhere.wav", "-o", text(&png)], 1, "nowhere.wav");
     refused(&["spectrogram", "--blades", "2", text(&wav)], 2, "-o PICTURE.png");
     assert!(!png.exists());

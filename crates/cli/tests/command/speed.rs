@@ -267,7 +267,7 @@ fn the_mean_alone_says_what_its_uncertainty_assumes() {
     let heard =
         |more: &[&str]| hovertone(&[&["speed", text(&path), "--blades", "2"], more].concat()).ends_with(0).stderr;
     for (more, hint) in [
-        (&["--rotors", "4", "--mean-only"][..], "leave --mean-only and --method harmonic out"),
+        (&["--rotors", "4", "--mean-only"][..], "leave --mean-only or --method harmonic out"),
         (&["--rotors", "4", "--method", "maximum_trace"], "leave --method out"),
     ] {
         let said = heard(more);

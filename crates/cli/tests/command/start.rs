@@ -110,10 +110,13 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
     refuses(&["identify"], &["identify needs an experiment file"]);
     refuses(
         &["identify", "--mass", "0.4=a.wav"],
-        &["--vehicle NAME, or both --blades N and --rotors N", "hovertone init"],
+        &[
+            "--vehicle NAME, or both --rotors N and --blades N (with a gear, --rotors N and --gear P:W)",
+            "hovertone init",
+        ],
     );
     refuses(&["identify", "--mass", "0.4=a.wav", "--blades", "2"], &["--rotors N"]);
-    refuses(&["identify", "--mass", "0.4=a.wav", "--vehicle", "iris"], &["--blades N"]);
+    refuses(&["identify", "--mass", "0.4=a.wav", "--vehicle", "iris"], &["--blades N, or --gear P:W"]);
     refuses(&["identify", "--mass", "a.wav", "--vehicle", "ardrone"], &["the mass of this recording is missing"]);
     refuses(&["identify", "--mass", "413=a.wav", "--vehicle", "ardrone"], &["413g"]);
     refuses(&["identify", "x.toml", "--mass", "0.4=a.wav"], &["cannot be used with"]);

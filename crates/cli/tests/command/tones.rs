@@ -104,6 +104,27 @@ fn a_sine_is_one_family_with_its_frequency_to_a_hundredth() {
 }
 
 #[test]
+fn a_part_after_the_end_is_not_blamed_on_the_rotor() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("noise.wav");
+    write_noise(&path, 3.0);
+    let run = hovertone(&["tones", text(&path), "--from", "9"]).ends_with(3);
+    assert!(run.stdout.contains("the chosen part lies after the end of the recording"), "{}", run.stdout);
+    assert!(
+        !run.stdout.contains("no rotor tone") && run.stderr.contains("the recording ends at 3.0 s"),
+        "{}",
+        run.stderr
+    );
+    let out = folder.path().join("out");
+    let run = hovertone(&["batch", text(&path), "--from", "9", "-o", text(&out)]).ends_with(3);
+    assert!(run.stdout.contains("0 with a speed, 1 without a speed, 0 failed"), "{}", run.stdout);
+    let picture = folder.path().join("x.png");
+    let run =
+        hovertone(&["spectrogram", text(&path), "--blades", "2", "--from", "9", "-o", text(&picture)]).ends_with(3);
+    assert!(run.stderr.contains("because the chosen part lies after the end"), "{}", run.stderr);
+}
+
+#[test]
 fn noise_has_no_rotor_and_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("noise.wav");

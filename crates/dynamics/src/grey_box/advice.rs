@@ -21,7 +21,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         if !inputs.has_loop[axis as usize] {
             advice.push(Advice {
                 what: format!(
-                    "the control of {0} is not known: the log lacks the command or the measured value of {0}",
+                    "the model leaves out the control of {0}: the log lacks its command or its measured value",
                     axis.in_words()
                 ),
                 hint: format!("log the command and the {} of the vehicle", measurement(axis)),

@@ -2,13 +2,9 @@
 
 use super::column::{Column, RPM_RAD_S};
 use super::{AT_REST_SHARE, GroupedRow, StandForce, StandRow, TableError, fastest_rad_s};
-use hovertone_vehicle::{MASS_ALONE_KG_MAX, RotorSpeed};
+use hovertone_vehicle::{MASS_ALONE_KG_MAX, RotorSpeed, SHAFT_REV_S};
 use std::f64::consts::TAU;
 
-/// Fastest shaft speed, rev/s. The smallest racers' propellers make 670. *Physics.*
-const SPEED_REV_S_MAX: f64 = 1500.0;
-/// Slowest shaft speed of the fastest row, rev/s. *Physics.*
-const SPEED_REV_S_MIN: f64 = 1.0;
 /// Smallest mass of the heaviest row, kg. *Physics.*
 const MASS_KG_MIN: f64 = 1e-3;
 /// Millionths of a unit are kept in messages.
@@ -36,8 +32,8 @@ pub(super) fn check(rows: &[GroupedRow], columns: MeasuredColumns<'_>) -> Result
     }
     let is_in = |unit_rad_s: f64| (columns.speed.si_per_unit / unit_rad_s - 1.0).abs() < 1e-9;
     let speeds: Vec<Cell> = rows().map(|row| Cell { line: row.line_number, si: row.speed_rad_s }).collect();
-    let is_fast = |rad_s: f64| RotorSpeed::from_rad_s(rad_s).rev_s() > SPEED_REV_S_MAX;
-    let is_slow = |rad_s: f64| rad_s > 0.0 && RotorSpeed::from_rad_s(rad_s).rev_s() < SPEED_REV_S_MIN;
+    let is_fast = |rad_s: f64| RotorSpeed::from_rad_s(rad_s).rev_s() > *SHAFT_REV_S.end();
+    let is_slow = |rad_s: f64| rad_s > 0.0 && RotorSpeed::from_rad_s(rad_s).rev_s() < *SHAFT_REV_S.start();
     let fast = Limit {
         must_be: "too fast for a rotor, which turns at 1500 rev/s (90000 rpm) or less",
         header: (!is_in(RPM_RAD_S)).then_some("speed_rpm"),

@@ -44,7 +44,7 @@ class Identification(Shown):
     warnings : list of str
         Warnings about the constant.
     quote : str
-        The lines to quote: the constants with their ±, and the verdict.
+        The lines to quote: the constants with their ±, the verdict, and how the rotors were heard.
     page : pathlib.Path or None
         The page of the report, where `output` names a folder.
     json : dict

@@ -9,6 +9,7 @@ use crate::force::Force;
 use crate::speeds::{LoadSpeeds, TrialSpeeds};
 use crate::square_law::{CONSTANTS_FOR_GROSS, ForcePoint, PointNoise, are_split, gross_points, is_off_by_a_factor};
 use crate::statistics::{mean, median, student_factor};
+use hovertone_analysis::RotorsHeard;
 use hovertone_vehicle::RotorSpeed;
 
 /// Degrees of freedom of an uncertainty from the frames of one trial. The frames of a hover are correlated: about a hundred of them
@@ -27,6 +28,8 @@ pub(crate) struct HeardLoad<'a> {
     pub(crate) trials_rad_s: Vec<f64>,
     /// The recordings of these trials.
     pub(crate) recordings: Vec<&'a str>,
+    /// How their rotors are heard.
+    pub(crate) rotors_heard: Vec<RotorsHeard>,
     /// Mean over these trials.
     pub(crate) speed_rad_s: f64,
     /// Relative standard uncertainty of that mean …
@@ -164,6 +167,7 @@ fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &
     let speed_of = |trial: &'a TrialSpeeds| Some((trial.recording.as_str(), trial_rad_s(trial)?));
     let (recordings, trials_rad_s): (Vec<&str>, Vec<f64>) = kept().filter_map(speed_of).unzip();
     let speed_rad_s = mean(&trials_rad_s)?;
+    let with_speed = kept().filter(|trial| trial_rad_s(trial).is_some());
     let within: Vec<f64> = kept()
         .flat_map(TrialSpeeds::counted)
         .filter_map(|sample| Some(RotorSpeed::from_rev_s(sample.std_uncertainty_rev_s?).rad_s()))
@@ -176,6 +180,7 @@ fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &
         load,
         trials_rad_s,
         recordings,
+        rotors_heard: with_speed.filter_map(|trial| trial.rotors_heard).collect(),
         speed_rad_s,
         speed_std_share: estimator / speed_rad_s,
         estimator_std_share: estimator / speed_rad_s,

@@ -25,7 +25,7 @@ use crate::square_law::{ForceLaw, ForcePoint, PointVerdict, SquareLawFit, are_sp
 use crate::statistics::{mean, std, student_factor};
 use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
-use hovertone_analysis::Method;
+use hovertone_analysis::{Method, RotorsHeardCounts};
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 use row_misfits::warnings_of_misfits;
 
@@ -73,7 +73,7 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
     }
     ThrustTable {
         method,
-        rotors_heard: loads.iter().flat_map(|load| &load.trials).filter_map(|trial| trial.rotors_heard).collect(),
+        rotors_heard: rotors_heard_of(&campaign, fit.as_ref()),
         rotor_count,
         bootstrap: fit.as_ref().and_then(|fit| trial_bootstrap(&campaign, fit)),
         loads: rows,
@@ -87,6 +87,13 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
         drifts,
         warnings,
     }
+}
+
+/// How the rotors are heard in the recordings that the constant comes from.
+fn rotors_heard_of(campaign: &Campaign<'_>, fit: Option<&SquareLawFit>) -> RotorsHeardCounts {
+    let is_left_out = |place: usize| fit.and_then(|fit| fit.points.get(place)).is_some_and(|point| point.is_gross);
+    let used = campaign.loads.iter().enumerate().filter(|(place, _)| !is_left_out(*place));
+    used.flat_map(|(_, load)| load.rotors_heard.iter().copied()).collect()
 }
 
 fn implausible_merits(rows: &[LoadThrust]) -> Vec<ThrustWarning> {

@@ -2,7 +2,7 @@
 
 use super::campaign_tests::{GRAVITY_M_S2, TRUTH_N_S2, VEHICLE_KG, exact_hovers, fitted, load, weight};
 use crate::*;
-use hovertone_analysis::Method;
+use hovertone_analysis::{Method, RotorsHeard};
 use hovertone_vehicle::RotorSpeed;
 
 #[test]
@@ -30,6 +30,25 @@ fn an_outlier_of_three_hundred_per_cent_is_named_and_left_out() {
         table.warnings.iter().any(|warning| matches!(warning, ThrustWarning::LoadDoesNotFit { is_left_out: true, .. }))
     );
     assert!(table.loads[..3].iter().all(|row| row.fits == Some(true)));
+}
+
+/// A recording that the constant does not use is not counted among those in which the rotors are heard.
+#[test]
+fn a_recording_that_is_left_out_is_not_counted() {
+    let mut loads = exact_hovers(&[0.0, 0.05, 0.2, 0.1], 4);
+    for trial in loads.iter_mut().flat_map(|load| &mut load.trials) {
+        trial.rotors_heard = Some(RotorsHeard::Separated);
+    }
+    assert_eq!(fitted(&loads).rotors_heard.separated, 16);
+    let wrong = &mut loads[1].trials[2];
+    wrong.rotors_heard = Some(RotorsHeard::Group);
+    wrong.samples[0].speed = RotorSpeed::from_rad_s(wrong.samples[0].speed.rad_s() / 2.0);
+    let heard = fitted(&loads).rotors_heard;
+    assert_eq!((heard.separated, heard.group), (15, 0));
+    // a load that is left out has four recordings
+    loads[3].force = weight(4.0 * (VEHICLE_KG + 0.1) - VEHICLE_KG);
+    let heard = fitted(&loads).rotors_heard;
+    assert_eq!((heard.separated, heard.group), (11, 0));
 }
 
 #[test]

@@ -27,7 +27,7 @@ impl ThrustWarning {
                 "check that each recording is under the right [[load]]; if so, check it alone with `hovertone speed`"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
-                "do not use this constant: check the decimal point and the unit of the mass, and the name of the vehicle"
+                "do not use this constant: the masses may be ten times too large or too small, so check their decimal points and units; check the name of the vehicle too"
             }
             Self::MassFarFromKnown { .. } => {
                 "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
@@ -42,14 +42,14 @@ impl ThrustWarning {
                 "check this recording with `hovertone speed`: the tone may come from another harmonic or another machine"
             }
             Self::ConstantsSplit => {
-                "do not use this constant: check the masses, their units, the number of rotors and the order of the tone (blades or gear), and measure one more load"
+                "do not use this constant: check the masses or forces, their units, the number of rotors and the speeds (a wrong number of blades or a wrong gear changes them), then measure one more load or table row"
             }
             Self::MixedBenchAndHover => {
                 "at the same speed, a rotor has another thrust on a bench than in flight: put bench runs and hovers into two experiment files"
             }
             Self::SingleLoad => "measure a second load",
             Self::OneRecordingEach { .. } => "record each load five times, if possible, and land in between",
-            Self::EqualLoads { .. } => "measure masses as far apart as is safe: equal masses cannot test the law",
+            Self::EqualLoads { .. } => "fly masses that differ as much as is safe: equal masses cannot test the law",
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
                 "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
             }
@@ -80,7 +80,7 @@ impl ThrustWarning {
                 "do not use this constant: check the masses and which recording belongs to which load, then record each load five times"
             }
             Self::LoudestRotor => {
-                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
+                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, use the method separated, place the microphone nearer and record without compression"
             }
         }
     }

@@ -61,6 +61,7 @@ impl fmt::Display for ThrustWarning {
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
             Self::OneRecordingEach { load_count } => f.write_str(one_each_text(*load_count)),
+            Self::EqualLoads { count: 2 } => f.write_str("both loads have the same force, or nearly so"),
             Self::EqualLoads { count } => write!(f, "all {count} loads have the same force, or nearly so"),
             Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
             Self::OtherLawPreferred { law, probability } => {
@@ -79,7 +80,7 @@ impl fmt::Display for ThrustWarning {
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the mass of the vehicle, {:.1} g, comes from a preset or a model: this vehicle was not weighed", 1e3 * mass_kg)
             }
-            Self::LoudestRotor => f.write_str("the rotors could not be separated: one tone is used for all, from the loudest rotor or from \
+            Self::LoudestRotor => f.write_str("the rotors were not separated: one tone is used for all, from the loudest rotor or from \
             several"),
             Self::TooUncertain { share, .. } => {
                 write!(f, "the ± of C_f is larger than C_f itself: it is {:.0} % (k = {COVERAGE_FACTOR})", 100.0 * share)

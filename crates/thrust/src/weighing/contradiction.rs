@@ -1,7 +1,7 @@
 //! Masses that contradict a weighed hover, and what to do about them.
 
 use super::{AcousticScale, LIGHTER_SHARE_MAX};
-use hovertone_vehicle::{GRAMS_FACTOR, MASS_FACTOR_MAX, RotorSpeed};
+use hovertone_vehicle::{GRAMS_FACTOR, MASS_ALONE_KG_MAX, MASS_FACTOR_MAX, RotorSpeed};
 use std::ops::RangeInclusive;
 
 /// A mass that contradicts the hover.
@@ -74,7 +74,12 @@ impl WeighError {
             Self::LighterThanVehicle { hover_kg, vehicle_kg } if GRAMS_FACTOR.contains(&(vehicle_kg / hover_kg)) => {
                 grams_hint(*vehicle_kg)
             }
-            Self::TooHeavyToHover { vehicle_kg, .. } => format!("{}; {CHECK}", grams_hint(*vehicle_kg)),
+            // the thrust goes with the square of the speed
+            Self::TooHeavyToHover { vehicle_kg, rev_s, fastest_rev_s }
+                if (rev_s / fastest_rev_s).powi(2) > MASS_FACTOR_MAX || *vehicle_kg > MASS_ALONE_KG_MAX =>
+            {
+                format!("{}; if the mass is right, {CHECK_OTHERS}", grams_hint(*vehicle_kg))
+            }
             _ => CHECK.to_owned(),
         }
     }
@@ -82,7 +87,21 @@ impl WeighError {
 
 const CHECK: &str = "check the mass of the vehicle (in kilograms), the thrust constant (of the whole vehicle, in N/(rad/s)²), and the \
 blades or the gear";
+/// The same without the mass.
+const CHECK_OTHERS: &str = "check the thrust constant (of the whole vehicle, in N/(rad/s)²)";
 
 fn grams_hint(mass_kg: f64) -> String {
-    format!("masses are in kilograms: {mass_kg} g are --mass-kg {}", mass_kg / 1e3)
+    format!("masses are in kilograms: for {mass_kg} g write --mass-kg {}", mass_kg / 1e3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_mass_that_is_far_too_large_may_be_in_grams() {
+        let hint = |vehicle_kg, rev_s| WeighError::TooHeavyToHover { vehicle_kg, rev_s, fastest_rev_s: 120.0 }.hint();
+        assert!(hint(413.0, 1900.0).starts_with("masses are in kilograms: for 413 g write --mass-kg 0.413"));
+        assert!(!hint(2.0, 131.0).contains(" g "), "{}", hint(2.0, 131.0));
+    }
 }

@@ -289,7 +289,7 @@ mod tests {
             assert_eq!(weighed(vehicle_kg), Ok(()), "{vehicle_kg}");
         }
         let grams = weighed(413.0).unwrap_err();
-        assert!(grams.hint().contains("413 g are --mass-kg 0.413"), "{}", grams.hint());
+        assert!(grams.hint().contains("for 413 g write --mass-kg 0.413"), "{}", grams.hint());
         assert!(weighed(0.5).unwrap_err().hint().contains("check the mass"));
         assert!(matches!(weighed(0.02), Err(WeighError::FarHeavier { .. })));
     }

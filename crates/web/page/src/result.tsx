@@ -26,9 +26,14 @@ export function Result({ store }: { store: Store }) {
   );
 }
 
+/** The line of the constant: the verdict stands above it where the constant must not be used. */
+function constantLine(quote: string): string {
+  return quote.split("\n").find((line) => /^(do not use this constant: )?C_f\b/.test(line)) ?? quote;
+}
+
 /** The constant for one rotor and for the vehicle, as they are quoted. */
 export function Quoted({ quote }: { quote: string }) {
-  const values = quote.split(/; |\n/)[0].replace(/^C_f = /, "").split(", ");
+  const values = constantLine(quote).split("; ")[0].replace(/^.*C_f = /, "").split(", ");
   return (
     <p class="constant" data-quote={quote}>
       {values.map((value) => {
@@ -40,15 +45,19 @@ export function Quoted({ quote }: { quote: string }) {
 }
 
 function Constant({ store, result, isOld }: { store: Store; result: Identified; isOld: boolean }) {
-  const [quote, verdict] = result.quote.trim().split("\n");
+  const quote = constantLine(result.quote);
+  const verdict = result.quote.split("\n").find((line) => line.startsWith("verdict: "));
+  const others = result.quote.trim().split("\n").filter((line) => line !== quote && line !== verdict);
   const share = quote.split("; ")[1];
   return (
     <div class={isOld ? "old" : ""}>
       <Quoted quote={result.quote} />
+      {quote.startsWith("do not use") && <p class="fault">Do not use this constant: the warnings say why.</p>}
       {share && <p>{share}</p>}
       <p class={`verdict ${result.holds ?? ""}`}>
         {result.holds && <span class="badge">{VERDICTS[result.holds]}</span>} {verdict?.replace(/^verdict: /, "")}
       </p>
+      {others.map((line) => <p class="quiet" key={line}>{line}</p>)}
       <p class="quiet">{result.headline}</p>
       {result.warnings.length > 0 && (
         <details>
