@@ -6,10 +6,10 @@ use crate::Warning;
 const NARROWER_BAND: &str =
     "hovertone follows the rotor that is loudest at each moment; to follow one rotor, give a narrower --band";
 
-/// Which facts were given.
+/// Which facts were given. Beside a vehicle, the other facts are those that the vehicle does not tell in this way itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GivenFacts {
-    /// A known vehicle, with its blades and its gear, its diameter and its mass.
+    /// A known vehicle, with the blades, the gear, the diameter and the mass that it tells.
     pub vehicle: bool,
     /// The blades.
     pub blades: bool,
@@ -32,9 +32,10 @@ impl GivenFacts {
     pub fn in_words(self, last: &str) -> String {
         let facts = [
             (self.vehicle, "the vehicle"),
-            (self.blades && !self.vehicle, "the blades"),
-            (self.gear && !self.vehicle, "the gear"),
-            (self.order && !self.vehicle, "the order of the tone"),
+            (self.blades, "the blades"),
+            // --gear and --order say the same
+            (self.gear, "the gear (the order of the tone)"),
+            (self.order, "the order of the tone"),
             (self.diameter, "the diameter"),
             (self.mass, "the mass"),
             (self.band, "the band"),
@@ -58,6 +59,10 @@ impl GivenFacts {
     /// Advice that asks for a check of the number of blades, in words for the facts that were given: no gear is blamed that nobody gave.
     fn in_given_words(self, advice: &str) -> String {
         let of_tone = match (self.vehicle, self.blades, self.gear) {
+            (true, true, true) => "the vehicle, the blades and the gear",
+            (true, true, false) => "the vehicle and the blades",
+            (true, false, true) => "the vehicle and the gear",
+            (true, ..) if self.order => "the vehicle and the order of the tone",
             (true, ..) => "the vehicle",
             (false, true, true) => "the blades and the gear",
             (false, false, true) => "the gear",
@@ -117,17 +122,20 @@ mod tests {
             vehicle: true,
             blades: true,
             gear: true,
-            order: true,
+            order: false,
             diameter: true,
             mass: true,
             band: true,
             window: true,
         };
-        assert_eq!(all.in_words("and"), "the vehicle, the diameter, the mass and the band");
-        assert_eq!(GivenFacts { diameter: false, mass: false, ..all }.in_words("and"), "the vehicle and the band");
+        let named = "the vehicle, the blades, the gear (the order of the tone), the diameter, the mass and the band";
+        assert_eq!(all.in_words("and"), named);
+        let of_vehicle = GivenFacts { vehicle: true, band: true, ..nothing };
+        assert_eq!(of_vehicle.in_words("and"), "the vehicle and the band");
         let alone = GivenFacts { blades: true, mass: true, band: true, ..nothing };
         assert_eq!(alone.in_words("or"), "the blades, the mass or the band");
-        assert_eq!(all.replaced_by_blades(), "the vehicle and the band");
+        assert_eq!(all.replaced_by_blades(), "the vehicle, the gear (the order of the tone) and the band");
+        assert_eq!(of_vehicle.replaced_by_blades(), "the vehicle and the band");
         assert_eq!(alone.replaced_by_blades(), "the band");
         assert_eq!(GivenFacts { blades: true, ..nothing }.replaced_by_blades(), "the blades");
         let by_numbers = GivenFacts { diameter: true, mass: true, ..nothing };
@@ -147,8 +155,10 @@ mod tests {
         let by_order = GivenFacts { order: true, ..nothing };
         assert_eq!(by_order.in_words("and"), "the order of the tone");
         assert!(hints(by_order).iter().all(|hint| hint.contains("(blades or gear)")), "{:?}", hints(by_order));
-        let vehicle = GivenFacts { vehicle: true, ..geared };
+        let vehicle = GivenFacts { vehicle: true, ..nothing };
         assert!(hints(vehicle).iter().all(|hint| hint.contains("check the vehicle")), "{:?}", hints(vehicle));
+        let own_blades = GivenFacts { blades: true, ..vehicle };
+        assert!(hints(own_blades)[0].ends_with("check the vehicle and the blades"), "{:?}", hints(own_blades));
     }
 
     /// One warning would ask for a wider band, another for a narrower one, and a third for none.

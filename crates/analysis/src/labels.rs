@@ -297,14 +297,7 @@ impl fmt::Display for NotTold {
             }
             Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors, several motors of the log fit"),
             Self::SeveralFitRates { tracks } => f.write_str(&several_places_text(*tracks)),
-            Self::OtherChannels { channels, microphones } => {
-                write!(
-                    f,
-                    "the recording has {channels} channel{}, but {microphones} microphones have a position: the two \
-                    numbers must be equal",
-                    if *channels == 1 { "" } else { "s" }
-                )
-            }
+            Self::OtherChannels { channels, microphones } => f.write_str(&other_channels_text(*channels, *microphones)),
             Self::OtherPlaces { tracks, places } => {
                 write!(f, "{tracks} rotors were separated in the sound, but only {places} of them have a place")
             }
@@ -322,6 +315,14 @@ impl fmt::Display for NotTold {
             }
         }
     }
+}
+
+fn other_channels_text(channels: usize, microphones: usize) -> String {
+    let plural = if channels == 1 { "" } else { "s" };
+    format!(
+        "the recording has {channels} channel{plural}, but the number of microphones with a position is {microphones}: \
+         the two numbers must be equal"
+    )
 }
 
 fn several_places_text(tracks: usize) -> String {

@@ -171,10 +171,20 @@ mod tests {
     fn what_is_heard_instead_is_named_with_what_to_do() {
         let said = |only_rev_s| {
             let instead = Some(OtherRotor { blades: 2, speed_rev_s: 60.2 });
-            let given = GivenFacts { vehicle: true, blades: true, band: true, ..GivenFacts::default() };
+            let given = GivenFacts { vehicle: true, band: true, ..GivenFacts::default() };
             NoTone::NoSeries { only_rev_s, instead }.in_words(given)
         };
         assert!(said(Some((13.0, 120.0))).contains("give --blades 2 alone, in place of the vehicle and the band"));
+        // the number of blades that is given may be right
+        let instead = Some(OtherRotor { blades: 2, speed_rev_s: 60.2 });
+        let geared = GivenFacts { blades: true, gear: true, ..GivenFacts::default() };
+        let told = NoTone::NoSeries { only_rev_s: None, instead }.in_words(geared);
+        assert!(told.contains("give --blades 2 alone, in place of the gear (the order of the tone); if not"), "{told}");
+        let by_blades = NoTone::NoSeries { only_rev_s: None, instead }.in_words(GivenFacts { gear: false, ..geared });
+        assert!(
+            by_blades.contains("if your rotor has 2 blades, give --blades 2; if not, check the blades"),
+            "{by_blades}"
+        );
         let other = said(Some((200.0, 400.0)));
         assert!(
             other.starts_with(
@@ -193,7 +203,7 @@ mod tests {
         let bladed = GivenFacts { blades: true, ..GivenFacts::default() };
         assert_eq!(in_place(bladed), "give --blades 2");
         let geared = GivenFacts { gear: true, ..bladed };
-        assert_eq!(in_place(geared), "give --blades 2 alone, in place of the gear");
+        assert_eq!(in_place(geared), "give --blades 2 alone, in place of the gear (the order of the tone)");
         let nothing = NoTone::NoSeries { only_rev_s: Some((13.0, 120.0)), instead: None }.to_string();
         assert!(nothing.contains("check the given facts, or move the microphone nearer"), "{nothing}");
     }

@@ -4,7 +4,7 @@ use crate::args::ExportArguments;
 use crate::failure::{Ending, Failure};
 use crate::identify::names_loads;
 use crate::inputs::{is_stdin, read_text};
-use crate::model_file::model_failure;
+use crate::model_file::{model_failure, model_hint};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::thrust::ThrustCoefficients;
@@ -36,15 +36,7 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
             None => Err(Failure::usage("neither --to nor --into is given", "see `hovertone export --help`")),
         };
     };
-    let text = export_text(&rotor, format).map_err(|error| {
-        let hint = match error {
-            ModelError::Needs { .. } => {
-                "for example `hovertone export results.json --to airsim --diameter-m 0.2 --air-density-kg-m3 1.2`"
-            }
-            _ => "see `hovertone export --help`",
-        };
-        Failure::usage(error.to_string(), hint)
-    })?;
+    let text = export_text(&rotor, format).map_err(|error| Failure::usage(error.to_string(), hint_of(&error)))?;
     let why = Unused {
         without_place: &|given| no_place_in(format, given, &rotor),
         same: Notice::new("the results have this number already", "leave the flag out"),
@@ -58,6 +50,14 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
         None => terminal.data(&text)?,
     }
     Ok(ending_of(&rotor))
+}
+
+/// What to do about lines that cannot be written.
+fn hint_of(error: &ModelError) -> String {
+    match error {
+        ModelError::Needs { flags, .. } => format!("give {flags}"),
+        _ => "see `hovertone export --help`".to_owned(),
+    }
 }
 
 /// Lines with a constant that must not be used are no complete answer.
@@ -263,15 +263,13 @@ fn unchanged(error: &ModelError, model: &Path, arguments: &ExportArguments) -> F
     if matches!(error, ModelError::Expression { .. }) {
         return model_failure(error, model);
     }
+    let hint = model_hint(error);
     let hint = match arguments.torque_constant_n_m_s2 {
-        Some(_) => {
-            "give a model that hovertone knows: `hovertone compare --help` lists them; to keep the torque of the \
-             model, leave --torque-constant-n-m-s2 out"
-        }
-        None => "give a model that hovertone knows: `hovertone compare --help` lists them",
+        Some(_) => format!("{hint}; to keep the torque of the model, leave --torque-constant-n-m-s2 out"),
+        None => hint.to_owned(),
     };
     let what = format!("{error}: nothing was written");
-    Failure::Usage { what, hint: hint.to_owned(), path: Some(model.to_owned()) }
+    Failure::Usage { what, hint, path: Some(model.to_owned()) }
 }
 
 /// Says what weakens the constant of results.
@@ -375,6 +373,11 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             hint: "leave --group out".to_owned(),
             path: Some(path.to_owned()),
         },
+        ResultsError::NothingIdentified => Failure::failed(
+            error.to_string(),
+            "`hovertone identify` tells why each recording has no speed: follow its advice, and run it again",
+            path,
+        ),
         _ => {
             let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote, or the output of \
                         `hovertone fit --json`";

@@ -13,13 +13,20 @@ pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
 
 /// The failure of a file that should be a model.
 pub(crate) fn model_failure(error: &ModelError, path: &Path) -> Failure {
-    let hint = match error {
+    Failure::failed(error.to_string(), model_hint(error), path)
+}
+
+/// What to do about a file that should be a model.
+pub(crate) fn model_hint(error: &ModelError) -> &'static str {
+    match error {
         ModelError::NoExport => {
             "give the model of a simulator; to see the constant of a results.json, open the report.html beside it"
         }
         ModelError::WebPage => "give the file of the model itself, not a web page that shows the file",
         ModelError::Expression { .. } => "write the number into the model, in place of the expression",
+        ModelError::Broken { .. } | ModelError::Quantity(_) => "correct the file, or give another model",
+        ModelError::Incomplete { .. } => "correct the model, or give a file with one complete model",
+        ModelError::UnlikeRotors { .. } => "give a model whose rotors all have the same constant",
         _ => "give a model that hovertone knows: `hovertone compare --help` lists them",
-    };
-    Failure::failed(error.to_string(), hint, path)
+    }
 }

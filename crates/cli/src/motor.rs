@@ -22,8 +22,10 @@ use hovertone_dynamics::{
 };
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
-use hovertone_report::{LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text};
-use hovertone_vehicle::{LOGGED_REV_S_MAX, number_in_words};
+use hovertone_report::{
+    LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text, significant,
+};
+use hovertone_vehicle::LOGGED_REV_S_MAX;
 use std::path::Path;
 
 /// Names of the one motor of a recording.
@@ -261,7 +263,7 @@ pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<Logge
     if fastest_rev_s > LOGGED_REV_S_MAX {
         let what = format!(
             "in this log, a motor turns at {} rev/s, but no motor exceeds {LOGGED_REV_S_MAX} rev/s",
-            number_in_words(fastest_rev_s.round())
+            significant(fastest_rev_s, 4)
         );
         let hint =
             "check the unit in the header of the speed column, or give the unit, as in --column HEADER=rotor1_rpm"

@@ -15,7 +15,7 @@ use hovertone::sound::{HeardBand, Passes, line_frequency};
 use hovertone::speed::{Config, NoTone, OtherRotor, better_rotor_from_passes, passes_of_speed};
 use hovertone::tones::{Meaning, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
-use hovertone_media::Recording;
+use hovertone_media::{MediaError, Recording};
 use hovertone_report::{Notice, SpeedRecord};
 use hovertone_workflow::{NotHeard, failed_record, notices_of, progress_of};
 use rayon::prelude::*;
@@ -216,9 +216,10 @@ fn opened_or_not(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
 fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, NotHeard> {
     let mut recording = opened_or_not(job, hearing)?;
     let hashed = || job.sha256.clone().map_or_else(|| recording.bytes().and_then(sha256_of), Ok);
-    let sha256 = (hearing.wants_hash && job.samples.is_none()).then(hashed).transpose().map_err(|error| {
-        NotHeard::because("unreadable", format!("the file could not be read to its end: {error}; check the disk"))
-    })?;
+    let sha256 = (hearing.wants_hash && job.samples.is_none())
+        .then(hashed)
+        .transpose()
+        .map_err(|error| NotHeard::because("unreadable", MediaError::Read(error)))?;
     let heard = hovertone_workflow::hear(&mut recording, &job.task(hearing), sha256, |done| share.show(done))?;
     let hovertone_workflow::Heard { record, config, spin_up } = heard;
     let thumbnail = hearing.wants_thumbnail.then(|| thumbnail_of(&mut recording, record.analysis()?)).flatten();

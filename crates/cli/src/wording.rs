@@ -3,7 +3,9 @@
 use hovertone_report::Wording;
 
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
-pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
+pub(crate) const IN_PLACE_OF_FILE: Wording = Wording { has_loads: true, ..Wording::of_phrases(IN_PLACE_OF_KEYS) };
+
+const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     ("--from and --to", "from_s and to_s under [[load]] of the experiment file that -o DIR writes"),
     ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of the experiment file that -o DIR writes"),
     ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
@@ -20,7 +22,7 @@ pub(crate) const IN_PLACE_OF_FILE: Wording = Wording::of_phrases(&[
     ("under the right [[load]]", "after the right --mass"),
     ("give each mass a [[load]] of its own", "give --mass once for each mass"),
     ("; is each added mass (added_mass_kg) without the mass of the vehicle?", ""),
-]);
+];
 
 /// In a hover, all rotors of the vehicle turn: no other number of them can be given.
 const OTHER_ROTORS_IN_FLIGHT: (&str, &str) =
@@ -74,6 +76,7 @@ mod tests {
             propellers (--diameter-m), the mass (--mass-kg)",
             "the number of rotors (--rotors)",
             "count the blades, and give --blades N too",
+            "check the vehicle (--vehicle) and the number of blades (--blades)",
         ];
         let hints = warnings.iter().map(|warning| warning.hint().to_owned());
         hints.chain(reasons.iter().map(ToString::to_string)).chain(of_records.map(str::to_owned)).collect()

@@ -41,10 +41,11 @@ impl CsvError {
         match self {
             Self::NoTable(what) => what.hint(),
             Self::NotCsv(_) => NoTable::Empty.hint(),
-            Self::RaggedRow { .. } => {
-                "complete or remove the row; if the decimal sign is a comma, separate the cells by semicolons: 3,5 is \
-                read as two cells"
+            Self::RaggedRow { cells, columns, .. } if cells > columns => {
+                "correct or remove the row; if the decimal sign is a comma, separate the cells by semicolons: 3,5 is \
+                 read as two cells"
             }
+            Self::RaggedRow { .. } => "complete or remove the row",
             Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
                 "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }

@@ -104,7 +104,7 @@ pub enum ResultsError {
     #[error("this file is no results.json, because {}", json_fault(.0))]
     NotJson(#[from] serde_json::Error),
     /// JSON without the fields of a result.
-    #[error("this is no results.json of `hovertone identify`: {what} is missing")]
+    #[error("this file is no results.json of `hovertone identify`, because {what} is missing in it")]
     Missing {
         /// The missing field.
         what: &'static str,
@@ -130,7 +130,7 @@ pub enum ResultsError {
         name: String,
     },
     /// The result has no constant.
-    #[error("nothing was identified in these results: no recording had a rotor tone")]
+    #[error("these results have no thrust constant, because no recording has a usable speed")]
     NothingIdentified,
     /// A number out of range.
     #[error(transparent)]
@@ -141,9 +141,9 @@ pub enum ResultsError {
 pub(crate) fn json_fault(error: &serde_json::Error) -> String {
     match (error.classify(), error.line(), error.column()) {
         (Category::Eof, 1, 0) => "the file is empty".to_owned(),
-        (Category::Eof, line, _) => format!("the file ends too early, on line {line}"),
-        (Category::Data, ..) => "a value in it is missing or has another type".to_owned(),
-        (_, line, column) => format!("it is not valid JSON in line {line}, column {column}"),
+        (Category::Eof, line, _) => format!("the file ends too early, in line {line}"),
+        (Category::Data, ..) => "a value in it is missing, or is of the wrong type".to_owned(),
+        (_, line, column) => format!("it is not valid JSON: line {line}, column {column} is wrong"),
     }
 }
 

@@ -17,5 +17,5 @@ pub use identified::{Doubt, HeardTone, IdentifiedRotor, ResultsError, identified
 pub use simulator::{
     ChangedLine, ModelError, SimulatorFormat, SimulatorModel, UpdatedModel, export_text, model_from_text, updated_model,
 };
-pub use thrust_stand::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
+pub use thrust_stand::{StandForce, StandGroup, StandRow, StandTable, TableError, TableNote, table_from_csv};
 pub use units::ConstantUnits;

@@ -41,9 +41,22 @@ fn format_of(head: &[u8]) -> Result<Option<LogFormat>, LogError> {
     if has(blackbox::FIRST_LINE) {
         return Ok(Some(LogFormat::Blackbox));
     }
-    match head.contains(&0) {
-        true if has(&dataflash::FIRST_BYTES) => Ok(Some(LogFormat::DataFlash)),
-        true => Err(LogError::UnknownFormat),
-        false => Ok(None),
+    let first_line = head.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let is_of_text = |byte: &u8| !byte.is_ascii_control() || matches!(byte, b'\t' | b'\r');
+    match !head.contains(&0) && first_line.iter().all(is_of_text) {
+        true => Ok(None),
+        false if has(&dataflash::FIRST_BYTES) => Ok(Some(LogFormat::DataFlash)),
+        false => Err(LogError::UnknownFormat),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_that_are_no_text_are_no_table() {
+        assert!(matches!(format_of(b"time_s,rotor1_rpm\r\n0,1000\r\n"), Ok(None)));
+        assert!(matches!(format_of(b"d\x05a\x19V[8 }\x10 d8\n"), Err(LogError::UnknownFormat)));
     }
 }

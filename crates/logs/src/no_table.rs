@@ -5,13 +5,13 @@
 #[non_exhaustive]
 pub enum NoTable {
     /// Nothing in it.
-    #[error("this file is empty, and a table is needed")]
+    #[error("this file is empty, so it holds no table")]
     Empty,
     /// JSON.
-    #[error("this file is JSON, and a table is needed")]
+    #[error("this file is JSON and no table")]
     Json,
     /// TOML: an experiment or a scenario.
-    #[error("this file is TOML, and a table is needed")]
+    #[error("this file is TOML and no table")]
     Toml,
     /// Rows of numbers without names above them.
     #[error("the first line of this table has numbers only, but it must name the columns")]

@@ -62,8 +62,8 @@ pub enum MediaError {
 
     /// The requested track does not exist.
     #[error(
-        "audio track {asked} does not exist: the number of audio tracks in the file is {count}; give a smaller number, or leave \
-        --audio-track out"
+        "audio track {asked} does not exist: the file has {}; {}leave --audio-track out",
+        numbered(*count, "audio track"), other_number(*count)
     )]
     NoSuchTrack {
         /// Number of the track, counted from 1.
@@ -74,8 +74,8 @@ pub enum MediaError {
 
     /// The requested channel does not exist.
     #[error(
-        "channel {asked} does not exist: the number of channels in the audio track is {count}; give a smaller number, or leave \
-        --channel out"
+        "channel {asked} does not exist: the audio track has {}; {}leave --channel out",
+        numbered(*count, "channel"), other_number(*count)
     )]
     NoSuchChannel {
         /// Number of the channel, counted from 1.
@@ -154,7 +154,7 @@ pub enum MediaError {
     },
 
     /// Reading the disk failed.
-    #[error("the file could not be read to its end: {0}; check the disk or the connection")]
+    #[error("the file could not be read to its end: {}{}", .0, advice_on(.0))]
     Read(#[source] io::Error),
 }
 
@@ -179,6 +179,25 @@ impl MediaError {
     }
 }
 
+/// "only 1 channel", or "channels 1 to 4".
+fn numbered(count: usize, noun: &str) -> String {
+    match count {
+        0 => format!("no {noun}"),
+        1 => format!("only 1 {noun}"),
+        _ => format!("{noun}s 1 to {count}"),
+    }
+}
+
+/// Asks for another number where there is one.
+fn other_number(count: usize) -> &'static str {
+    if count > 1 { "give one of these numbers, or " } else { "" }
+}
+
+/// What to do about a read that failed. An error of a store, which is no error of the system, brings its own advice.
+fn advice_on(error: &io::Error) -> &'static str {
+    if error.get_ref().is_some() { "" } else { "; check the disk or the connection" }
+}
+
 /// Why a file cannot be opened and what to do, in plain words where they are known.
 fn why_not_opened(error: &io::Error) -> String {
     match error.kind() {
@@ -187,6 +206,23 @@ fn why_not_opened(error: &io::Error) -> String {
             "you have no right to read it, or to open its folder; ask the owner for the right to read it, or for a copy"
                 .to_owned()
         }
+        _ if error.get_ref().is_some() => error.to_string(),
         _ => format!("{error}; check the file and its disk"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_asked_for_only_where_there_is_another() {
+        let only = MediaError::NoSuchTrack { asked: 2, count: 1 }.to_string();
+        assert_eq!(only, "audio track 2 does not exist: the file has only 1 audio track; leave --audio-track out");
+        let several = MediaError::NoSuchChannel { asked: 5, count: 2 }.to_string();
+        assert!(
+            several.ends_with("has channels 1 to 2; give one of these numbers, or leave --channel out"),
+            "{several}"
+        );
     }
 }

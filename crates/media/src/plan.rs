@@ -1,5 +1,6 @@
 //! The plan how to decode one audio track: made once when a file is opened, used in every pass over the sound.
 
+use std::io::ErrorKind;
 use std::path::PathBuf;
 
 use symphonia::core::codecs::audio::AudioCodecId;
@@ -165,8 +166,8 @@ pub(crate) fn settle(file: &dyn FileAccess, plan: Plan) -> Result<Settled, NotNa
         .settle_format(BAD_PACKETS_AT_START_MAX)
         .map_err(|error| NotNative::Error(MediaError::Read(error)))?
         .ok_or_else(|| {
-            let why = "not one of the first pieces of its sound can be decoded".to_owned();
-            NotNative::Error(MediaError::NoSamples { container, why })
+            let why = "none of the first pieces of its sound can be decoded".to_owned();
+            NotNative::Error(MediaError::Damaged { container, why })
         })?;
     let format = Some(frames.format());
     Ok(Settled { plan: Plan { format, ..plan }, sample_rate_hz: frames.sample_rate_hz(), first_packet_s })
@@ -197,15 +198,35 @@ pub(crate) fn native_error(error: SymphoniaError, container: Container) -> Media
     }
 }
 
-/// What is wrong with a file, in place of the words of the decoder, which are for its programmers.
+/// What is wrong with a file, in place of the words of the decoder, which are for its programmers. Reads that fail for another reason
+/// than the content have an error of their own (`FileAccess::failure`, `native_error`).
 pub(crate) fn damage_in_words(error: &SymphoniaError) -> &'static str {
     match error {
-        SymphoniaError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            "it ends within its header"
-        }
-        SymphoniaError::IoError(_) => "it could not be read to its end",
+        SymphoniaError::IoError(error) => match error.kind() {
+            ErrorKind::UnexpectedEof => "its header is incomplete",
+            ErrorKind::InvalidInput => "it points to a place outside of the file",
+            ErrorKind::OutOfMemory => "a size in its header is impossible",
+            _ => "its bytes do not follow the format",
+        },
         SymphoniaError::Unsupported(_) => "it has a part that hovertone cannot read",
         SymphoniaError::LimitError(_) => "a size in its header is impossible",
         _ => "its bytes do not follow the format",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io;
+
+    #[test]
+    fn damage_has_its_own_reason_for_each_kind_of_read_that_fails() {
+        let told = |kind: ErrorKind| damage_in_words(&SymphoniaError::IoError(io::Error::from(kind)));
+        assert_eq!(told(ErrorKind::UnexpectedEof), "its header is incomplete");
+        assert_eq!(told(ErrorKind::InvalidInput), "it points to a place outside of the file");
+        assert_eq!(told(ErrorKind::OutOfMemory), "a size in its header is impossible");
+        assert_eq!(told(ErrorKind::Other), "its bytes do not follow the format");
+        let damaged = native_error(SymphoniaError::IoError(ErrorKind::InvalidInput.into()), Container::Mp4);
+        assert!(damaged.to_string().contains("is damaged: it points to"), "{damaged}");
     }
 }

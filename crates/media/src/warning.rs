@@ -135,10 +135,16 @@ impl fmt::Display for MediaWarning {
                 )
             }
             Self::CorruptPackets { count, silence_s } => {
-                write!(f, "{count} damaged pieces of sound were replaced by {silence_s:.3} s of silence")
+                let pieces = if *count == 1 { "piece of sound was" } else { "pieces of sound were" };
+                write!(f, "{count} damaged {pieces} replaced by {silence_s:.3} s of silence")
             }
             Self::NonFiniteSamples { count } => {
-                write!(f, "{count} audio samples are no numbers (NaN or infinite); they were replaced by zero")
+                let (samples, they) = if *count == 1 {
+                    ("audio sample is no number", "it was")
+                } else {
+                    ("audio samples are no numbers", "they were")
+                };
+                write!(f, "{count} {samples} (NaN or infinite); {they} replaced by zero")
             }
             Self::Overdriven { share } => {
                 write!(f, "the recording is overdriven: {:.0} % of its audio samples are at full scale", 100.0 * share)
@@ -153,8 +159,9 @@ impl fmt::Display for MediaWarning {
             Self::SeveralAudioTracks { chosen, count, silent } => {
                 write!(f, "audio track {chosen} of {count} is used")?;
                 if !silent.is_empty() {
+                    let (tracks, are) = if silent.len() == 1 { ("track", "is") } else { ("tracks", "are") };
                     let silent: Vec<String> = silent.iter().map(usize::to_string).collect();
-                    write!(f, ", because track {} is silent", silent.join(", "))?;
+                    write!(f, ", because {tracks} {} {are} silent", silent.join(", "))?;
                 }
                 Ok(())
             }
@@ -171,7 +178,7 @@ impl fmt::Display for MediaWarning {
                 )
             }
             Self::FormatChange { at_s } => {
-                write!(f, "the sample rate or the channels change after {at_s:.3} s; the rest was left out")
+                write!(f, "the sample rate or the number of channels changes after {at_s:.3} s; the rest was left out")
             }
             Self::Ffmpeg { message } => {
                 write!(f, "ffmpeg could not decode all of the sound: it said \u{201c}{message}\u{201d}")

@@ -188,7 +188,7 @@ fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String 
     bootstrap.map_or(String::new(), |drawn| {
         format!(
             "check: the fit was repeated with {} random choices of the recordings (bootstrap, seed {}). This gives a standard uncertainty of {} %. \
-            The rows \"{}\" and \"{}\" together should give about the same\n",
+            In the budget above, the rows \"{}\" and \"{}\" together should give about the same\n",
             drawn.draws,
             drawn.seed,
             significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2),

@@ -21,8 +21,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
     let wanted = || records.iter().filter(|record| record.wants_condition && record.speed().is_some());
     wanted().next()?;
     for record in wanted() {
-        let given = record.given_facts();
-        let are_blades_known = given.blades || given.vehicle;
+        let are_blades_known = record.are_blades_known();
         if let Some(condition) = record.tone().and_then(|tone| tone.condition.as_ref()) {
             table.push(row(record.file.clone(), condition));
             continue;

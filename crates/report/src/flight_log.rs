@@ -37,10 +37,7 @@ impl FlightLogRecord {
             Notice::new(format!("the speeds in {} do not fit the sound: {text}", self.file), hint)
         });
         let undecided = self.verification.as_ref().and_then(undecided_check).map(|Notice { text, hint, .. }| {
-            Notice::new(
-                format!("it is not certain that {} is of the same flight as the sound: {text}", self.file),
-                hint,
-            )
+            Notice::new(format!("the check of the sound against {} is not decided: {text}", self.file), hint)
         });
         let not_compared = self.not_verified.as_ref().map(|Notice { text, hint, .. }| {
             Notice::new(format!("the sound was not compared with {}: {text}", self.file), hint.clone())

@@ -153,7 +153,9 @@ fn motors_table(logged: &[Logged<'_>]) -> TextTable {
 fn no_time_constant(record: &MotorRecord) -> Option<&'static str> {
     let first = record.motors.first().filter(|_| !record.has_time_constant())?;
     Some(match first.model.is_too_slow {
-        true => "a motor reaches its speed within 300 ms, and 3 log rows or more must lie in this time",
-        false => "the speed makes no step from one steady value to another",
+        true => {
+            "the log has too few rows: a motor reaches its speed within 300 ms, and 3 rows or more must lie in this time"
+        }
+        false => "no step of the speed from one steady value to another could be used",
     })
 }

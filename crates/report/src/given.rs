@@ -6,27 +6,29 @@ use hovertone_vehicle::{BLADES_MAX, find_preset};
 use serde_json::Value;
 
 impl SpeedRecord {
-    /// The facts that were given before the recording was heard. Diameter and mass are among them only where the named vehicle has others.
+    /// The facts that were given before the recording was heard. A fact that the given vehicle tells itself belongs to the vehicle.
     pub fn given_facts(&self) -> GivenFacts {
-        let vehicle = self.setting("/known/vehicle").and_then(Value::as_str);
-        let preset = vehicle.and_then(find_preset);
-        // the file of a user's own vehicle is not read here: its numbers count as the vehicle's
-        let is_own_vehicle = vehicle.is_some() && preset.is_none();
-        let is_beside = |place: &str, known: Option<f64>| {
-            let given = self.setting(place).and_then(Value::as_f64);
-            given.is_some() && given != known && !is_own_vehicle
+        let vehicle = self.setting("/known/vehicle");
+        let preset = vehicle.and_then(Value::as_str).and_then(find_preset);
+        // no preset is known for a vehicle of the user's own: all facts may be its own
+        let is_own = |of_preset: Option<bool>| vehicle.is_none() || of_preset == Some(false);
+        let differs = |place: &str, of_preset: Option<f64>| {
+            self.setting(place).is_some_and(|value| is_own(preset.map(|_| value.as_f64() == of_preset)))
         };
-        let known_diameter_m = preset.and_then(|vehicle| Some(vehicle.propeller_diameter_m?.value));
-        let known_mass_kg = preset.and_then(|vehicle| Some(vehicle.mass_kg?.value));
         let (is_order_given, is_mesh) = (self.found.is_none(), self.order.lines_per_turn() > BLADES_MAX);
-        let are_blades_given = ["/tone/blades", "/known/blade_count"].iter().any(|place| self.setting(place).is_some());
+        let are_blades_given = match &self.found {
+            Some(found) => found.are_blades_given(),
+            None => self.are_blades_known(),
+        };
+        // the mass of a load cannot be left out
+        let is_of_load = self.wording.has_loads;
         GivenFacts {
             vehicle: vehicle.is_some(),
-            blades: are_blades_given,
-            gear: is_order_given && is_mesh,
+            blades: are_blades_given && is_own(preset.map(|preset| preset.blade_count.is_some())),
+            gear: is_order_given && is_mesh && is_own(preset.map(|preset| preset.gear.is_some())),
             order: is_order_given && !is_mesh && !are_blades_given,
-            diameter: is_beside("/known/diameter_m", known_diameter_m),
-            mass: is_beside("/known/mass_kg", known_mass_kg),
+            diameter: differs("/known/diameter_m", preset.and_then(|preset| Some(preset.propeller_diameter_m?.value))),
+            mass: !is_of_load && differs("/known/mass_kg", preset.and_then(|preset| Some(preset.mass_kg?.value))),
             band: self.setting("/tone/band_hz").is_some(),
             window: self.setting("/spectrogram/window_s").is_some(),
         }

@@ -96,7 +96,7 @@ pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
 /// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
 fn trust(record: &GreyBoxRecord) -> &'static str {
     if record.are_speeds_logged {
-        "in simulated flights, 90 to 100 % of the errors were within the ±, and 95 % should be"
+        "the ± is about right: in simulated flights, 90 to 100 % of the errors were within it, and 95 % should be"
     } else {
         "the ± is a little too small: in simulated flights outdoors, 83 to 91 % of the errors were within it, and 95 % should be; compare with another flight (--check)"
     }
@@ -126,7 +126,7 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
             vehicle can fly with negative gains",
             axes.join(" and ")
         );
-        Notice::new(what, "check --log-axes, and the signs of the log's columns")
+        Notice::new(what, "check --log-axes, and the signs of the commands and of the measured values in the log")
     });
     let better = record.better.map(Warning::FitsElsewhere);
     let hover = record.other_hover.map(Notice::from);
@@ -211,7 +211,7 @@ fn rank_line(record: &GreyBoxRecord) -> String {
     let of_all = format!("the flight shows {told} of the {} numbers of the model", information.parameters);
     let rank = match information.rank {
         rank if rank < information.parameters => {
-            format!("{of_all}; only {rank} of them could be found independently of each other")
+            format!("{of_all}; {rank} of them could be found independently of each other")
         }
         _ => of_all,
     };

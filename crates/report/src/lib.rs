@@ -19,6 +19,7 @@
 //! motor        constants of motors, from steps in a log   motor_json    the same for programs
 //! grey_box     the low-level model of eqs 1 and 2         flight_log    the log of a recording's flight
 //! flight_log_tables  the same as tables                wording     advice in the words of a command
+//! missing_speed  why a recording has no speed
 //! ```
 
 mod adequacy;
@@ -38,6 +39,7 @@ mod folded_warnings;
 mod given;
 mod grey_box;
 mod logged;
+mod missing_speed;
 mod models;
 mod motor;
 mod motor_json;

@@ -234,13 +234,13 @@ fn verdict_in_words(verdict: StepVerdict, source: &MotorSource) -> &'static str 
 /// How the load changes the time constant, or why this is not known.
 fn load_text(constants: &MotorConstants) -> String {
     let Some(LoadTerm { unloaded_rate_per_s, square_per_rev, .. }) = constants.load_term else {
-        return "the steps cover too small a range of speeds to show whether the time constant changes with the speed\n"
+        return "not known whether the time constant changes with the speed: there are too few rising steps, or their speeds are too alike\n"
             .to_owned();
     };
     let rate = with_uncertainty(unloaded_rate_per_s.value, unloaded_rate_per_s.std_uncertainty);
     let square = with_uncertainty(square_per_rev.value, square_per_rev.std_uncertainty);
     format!(
-        "the time constant τ changes with the speed ω: 1/τ = 1/τ₀ + 2 k ω, with 1/τ₀ = {rate} 1/s and k = {square} 1/rev\n"
+        "change of the time constant τ with the speed ω: 1/τ = 1/τ₀ + 2 k ω, with 1/τ₀ = {rate} 1/s and k = {square} 1/rev\n"
     )
 }
 
@@ -249,7 +249,7 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     if record.motors.iter().all(|motor| motor.command.is_none()) {
         return match record.source {
             MotorSource::Log => {
-                "\nspeed of each command: not known, because no command in this log changes\n".to_owned()
+                "\nspeed of each command: not known, because this log has no commands, or none of them changes\n".to_owned()
             }
             MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
                 "\nspeed of each command: not known, because the commands and the heard speeds do not change at the same times; check that both are \
@@ -268,8 +268,8 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         largest of these commands\n";
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "no command is held for long, so the gain comes from all log rows. The motor follows each command \
-        late, so this gain is too small\n";
+        text += "no two commands are held while the motor turns, so the gain comes from all log rows. The motor \
+        follows each command late, so this gain is too small\n";
     }
     if maps().any(|map| !map.points.is_empty()) {
         text += &format!("\n{}", table_text(&plateaus_table(record), width));
@@ -285,8 +285,8 @@ fn torque_text(torque: &BenchTorque) -> String {
         BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
             let offset = significant(*offset_n_m, 2);
             let how = format!(
-                " (± of the fit alone, k = 2), from the torque at {level_count} steady speeds; at rest the torque is \
-                {offset} N m"
+                " (± of the fit alone, k = 2), from the torque at {level_count} steady speeds; the fit gives \
+                {offset} N m at rest"
             );
             Ok((*constant_n_m_s2, how))
         }
@@ -311,14 +311,14 @@ fn gains_table(record: &MotorRecord) -> TextTable {
         Column::words("motor"),
         Column::words("command"),
         Column::numbers("gain", "rev/s per unit"),
-        Column::numbers("line at command 0", "rev/s"),
+        Column::numbers("speed at command 0, by the gain", "rev/s"),
     ]);
     for motor in &record.motors {
         let told = motor.model.static_map.as_ref().and_then(|map| Some((map.gain_rev_s?, map.offset_rev_s?)));
         match (&motor.command, told) {
             (None, _) => shown.push_words(motor.name.clone(), "no command in this log".to_owned()),
             (Some(command), None) => {
-                shown.push_words(motor.name.clone(), format!("the speed does not follow the command \"{command}\""));
+                shown.push_words(motor.name.clone(), format!("not known: the command \"{command}\" is not held at two values, or the speed does not follow it"));
             }
             (Some(command), Some((gain, offset_rev_s))) => shown.push(vec![
                 motor.name.clone(),

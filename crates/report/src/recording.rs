@@ -1,13 +1,12 @@
 //! The record of one recording: its facts and its result.
 
 use crate::notice::{Notice, NoticeKind};
-use crate::number::significant;
 use crate::wording::Wording;
 use hovertone_analysis::{
     Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
     SpeedAnalysis, SpeedEstimate, ToneFamily, Warning,
 };
-use hovertone_vehicle::{BLADES_MAX, Order, THRUST_COEFFICIENT};
+use hovertone_vehicle::Order;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -58,15 +57,6 @@ pub enum Contradicted {
     ByAnotherRotor,
 }
 
-/// In less sound, hovering longer is no advice: there is too little of it. *Decision.*
-const HOVER_S_MIN: f64 = 1.0;
-
-/// Length of the sound where it is too short for most rotors: then no other reason tells more. `None` where it is long enough, silent, or left out.
-fn too_short_s(analysis: &SpeedAnalysis, reason: &NoTone) -> Option<f64> {
-    let is_other = matches!(reason, NoTone::Silence | NoTone::OutsideRecording { .. });
-    Some(analysis.heard.length_s()).filter(|heard_s| !is_other && (0.0..HOVER_S_MIN).contains(heard_s))
-}
-
 /// Result of the search for a tone of unknown order.
 #[derive(Clone, Debug)]
 pub struct Found {
@@ -82,7 +72,7 @@ pub struct Found {
 
 impl Found {
     /// Whether the number of blades was given to the search.
-    fn are_blades_given(&self) -> bool {
+    pub(crate) fn are_blades_given(&self) -> bool {
         self.settings.pointer("/known/blade_count").is_some_and(|count| !count.is_null())
     }
 }
@@ -236,122 +226,9 @@ impl SpeedRecord {
         }
     }
 
-    /// Reason for a missing speed.
-    pub fn reason(&self) -> Option<String> {
-        match &self.answer {
-            Answer::Failed { reason } => Some(reason.clone()),
-            Answer::Heard(analysis) => self.reason_of(analysis).map(|reason| self.wording.of(&reason)),
-        }
-    }
-
-    /// Reason for a missing speed of an analysis, with the flags of `hovertone speed`.
-    fn reason_of(&self, analysis: &SpeedAnalysis) -> Option<String> {
-        match &analysis.outcome {
-            Outcome::NoRotorTone { reason } if let Some(heard_s) = too_short_s(analysis, reason) => {
-                Some(NoTone::TooShort { heard_s }.to_string())
-            }
-            Outcome::NoRotorTone { reason } => {
-                let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.in_words(self.given_facts()));
-                Some(self.spoiled.clone().unwrap_or_else(of_mesh))
-            }
-            Outcome::Ok(_) if !self.is_ambiguous() => None,
-            Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
-                if self.has_thrust_coefficients() {
-                    "several rotor speeds explain this sound; count the blades, and give --blades N too"
-                } else {
-                    "several rotor speeds explain this sound; count the blades and give --blades N, and if that is not enough --diameter-m, \
-                     --mass-kg and --rotors too"
-                }
-                .to_owned(),
-            ),
-            Outcome::Ok(_) if self.is_setting_missing("/tone/blades") => Some(
-                "several rotor speeds explain this sound; count the blades, and give --blades N too: the tone of the blades shows the \
-                speed"
-                    .to_owned(),
-            ),
-            // a vehicle with a mass is in flight
-            Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() && self.setting("/known/mass_kg").is_none() => {
-                let band = if self.given_facts().band { "a narrower --band" } else { "--band LOW:HIGH" };
-                Some(format!(
-                    "several rotor speeds explain this sound; on a bench, give the band around the tone of the blades \
-                    with {band}; in flight, give {}",
-                    self.missing_facts()
-                ))
-            }
-            Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
-                "several rotor speeds explain this sound; give {}",
-                self.missing_facts()
-            )),
-            Outcome::Ok(_) => Some(self.facts_that_do_not_fit().unwrap_or_else(|| {
-                "several rotor speeds explain this sound, and the vehicle could fly at more than one of them; check the diameter of the \
-                 propellers, the mass and the number of rotors, or place the microphone nearer"
-                    .to_owned()
-            })),
-        }
-    }
-
-    /// That the given facts exclude a speed that the sound does not, and what to check: either may be wrong.
-    fn facts_that_do_not_fit(&self) -> Option<String> {
-        let coefficient = |reading: &Reading| {
-            reading.thrust_coefficient.filter(|coefficient| !THRUST_COEFFICIENT.contains(coefficient))
-        };
-        let (rev_s, coefficient) =
-            self.alternatives().iter().find_map(|reading| Some((reading.speed.rev_s(), coefficient(reading)?)))?;
-        let (low, high) = (THRUST_COEFFICIENT.start(), THRUST_COEFFICIENT.end());
-        Some(format!(
-            "several rotor speeds explain this sound, and the given facts contradict one of them: at {rev_s:.1} rev/s, diameter, mass and number \
-             of rotors mean a thrust coefficient of {}, and propellers have {low} to {high}; check the diameter (--diameter-m), the mass \
-             (--mass-kg) and the number of rotors (--rotors)",
-            significant(coefficient, 2)
-        ))
-    }
-
-    /// That no gear mesh is heard, where that is the tone to follow and nothing else sounds like a rotor.
-    fn no_mesh(&self, reason: &NoTone) -> Option<String> {
-        let order = self.order.lines_per_turn();
-        let NoTone::NoSeries { only_rev_s, instead: None } = reason else { return None };
-        let range = only_rev_s.map_or_else(String::new, |(low, high)| {
-            format!(" at {:.0} to {:.0} Hz, where {low:.0} to {high:.0} rev/s would sound", order * low, order * high)
-        });
-        let (replaced, given) = (self.given_facts().replaced_by_blades(), self.given_facts().in_words("and"));
-        (order > BLADES_MAX).then(|| {
-            format!(
-                "the tone of the gear ({order} times the rotor speed) is not heard{range}; if the rotors have no \
-                gear, give --blades N alone, in place of {replaced}; if they have one, check {given}, or move the \
-                microphone nearer"
-            )
-        })
-    }
-
     /// Whether one rotor alone is said to turn, as on a bench.
     pub(crate) fn is_one_rotor(&self) -> bool {
         self.settings.pointer("/known/rotor_count").and_then(Value::as_u64) == Some(1)
-    }
-
-    fn is_setting_missing(&self, place: &str) -> bool {
-        self.settings.pointer(place).is_none_or(Value::is_null)
-    }
-
-    /// Those of diameter, mass and number of rotors that are not known, and what they are for.
-    fn missing_facts(&self) -> String {
-        let facts = [
-            ("/known/diameter_m", "the diameter of the propellers (--diameter-m)"),
-            ("/known/mass_kg", "the mass (--mass-kg)"),
-            ("/known/rotor_count", "the number of rotors (--rotors)"),
-        ];
-        let missing: Vec<&str> =
-            facts.iter().filter(|(place, _)| self.is_setting_missing(place)).map(|(_, words)| *words).collect();
-        const SPEEDS: &str = "speeds that cannot carry the vehicle";
-        match missing.split_last() {
-            Some((last, [])) => format!("{last}: it rules out {SPEEDS}"),
-            Some((last, others)) => format!("{} and {last}: they rule out {SPEEDS}", others.join(", ")),
-            None => format!("{}: they rule out {SPEEDS}", facts.map(|(_, words)| words).join(", ")),
-        }
-    }
-
-    /// Whether diameter, mass and number of rotors are known, so that each possible speed has a thrust coefficient.
-    fn has_thrust_coefficients(&self) -> bool {
-        self.alternatives().iter().any(|reading| reading.thrust_coefficient.is_some())
     }
 
     /// Whether the file could not be read.

@@ -44,7 +44,7 @@ pub fn thrust_table(table: &ThrustTable) -> TextTable {
             has_bench.then(|| if load.mass_kg.is_none() { significant(load.force_n, 4) } else { DASH.to_owned() }),
         );
         if load.speed.is_none() {
-            text.push_words(load.name.clone(), "no rotor tone in any of its recordings".to_owned());
+            text.push_words(load.name.clone(), "none of its recordings has a speed".to_owned());
             continue;
         }
         cells.extend(speed_cells(load));

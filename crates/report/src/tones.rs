@@ -229,7 +229,8 @@ fn readings_in_a_line(family: &ToneFamily) -> String {
         .collect();
     match words.is_empty() {
         true => {
-            format!("{INDENT}no rotor: {}\n", each_once(family.readings.iter().map(|reading| reading.why.as_str())))
+            let why = each_once(family.readings.iter().map(|reading| reading.why.as_str()));
+            format!("{INDENT}no speed of a rotor explains it ({why})\n")
         }
         false => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
     }

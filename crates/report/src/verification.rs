@@ -177,10 +177,10 @@ impl Undecided {
             }
             Self::FewWithin => Notice::new(
                 format!("{means} {few}"),
-                "check first that the log is of this flight, and then the offset of the clocks",
+                "check first that the log is of this flight, and then the offset of the clocks; if both are right, do not rely on the ± of the speed at a single moment",
             ),
             Self::SteadySpeeds => {
-                let also = if found.coverage() < COVERAGE_OF_HALF { format!("; and {few}") } else { String::new() };
+                let also = if found.coverage() < COVERAGE_OF_HALF { format!(". Also, {few}") } else { String::new() };
                 Notice::new(
                     format!("{means} {CLOCKS_NOT_COMPARED}. So the log may be of another flight{also}"),
                     "record a flight with a few quick climbs, which change the speeds",

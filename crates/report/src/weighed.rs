@@ -70,7 +70,10 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
         match mass.std_uncertainty {
             Some(_) => format!("{} g (k = 2{flights})", with_uncertainty(mass.value, mass.std_uncertainty)),
             None => {
-                format!("{} g (its ± is not known, because the constant has no ±)", significant(mass.value, DIGITS))
+                format!(
+                    "{} g (its ± is not known, because the constant is given without a ±)",
+                    significant(mass.value, DIGITS)
+                )
             }
         }
     };
@@ -85,7 +88,8 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
     );
     text += &match weighed.payload_kg {
         Some(payload_kg) => format!("payload: {}\n", grams(payload_kg)),
-        None => "payload: not known, because the mass of the vehicle alone is not given (--mass-kg)\n".to_owned(),
+        None => "payload: not known, because the mass of the vehicle alone is not given (give it with --mass-kg)\n"
+            .to_owned(),
     };
     text
 }

@@ -9,6 +9,8 @@ pub struct Wording {
     pub phrases: &'static [(&'static str, &'static str)],
     /// Keys in place of all other flags.
     pub keys: &'static [ExperimentKey],
+    /// Whether each recording belongs to a load, whose mass cannot be left out.
+    pub has_loads: bool,
 }
 
 impl Wording {
@@ -41,11 +43,12 @@ impl Wording {
             ("give --blades ", "under [vehicle] write blades = "),
         ],
         keys: &ExperimentKey::ALL,
+        has_loads: true,
     };
 
     /// Some phrases alone.
     pub const fn of_phrases(phrases: &'static [(&'static str, &'static str)]) -> Self {
-        Self { phrases, keys: &[] }
+        Self { phrases, keys: &[], has_loads: false }
     }
 
     /// The advice in these words.

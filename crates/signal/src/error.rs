@@ -10,7 +10,9 @@ pub enum SignalError {
     #[error("the sound could not be read to its end: {0}")]
     Source(#[from] SourceError),
     /// The sample rate of the source is outside 1 kHz to 1 MHz.
-    #[error("the sample rate is {sample_rate_hz} Hz, and must be from 1000 to 1000000 Hz")]
+    #[error(
+        "the sample rate is {sample_rate_hz} Hz, but it must be from 1000 to 1000000 Hz; give a recording with such a rate"
+    )]
     SampleRate {
         /// Sample rate of the source, Hz.
         sample_rate_hz: f64,

@@ -147,7 +147,11 @@ impl FlightSettings {
         let period_s = self.vehicle.controller.period_s.value;
         let runs = period_s / self.step_s;
         if !(self.step_s > 0.0 && runs.round() >= 1.0 && (runs - runs.round()).abs() < 1e-6 * runs) {
-            return refused("step_s", self.step_s, "the controller's period divided by a whole number");
+            return refused(
+                "step_s",
+                self.step_s,
+                "the controller's period divided by a whole number; 0.001 fits every preset",
+            );
         }
         for payload in &self.payloads {
             if !(payload.mass_kg >= 0.0 && payload.mass_kg.is_finite()) {

@@ -1,6 +1,6 @@
 //! Names in stores: `SERVICE://BUCKET/NAME`.
 
-use crate::error::StoreError;
+use crate::error::{StoreError, name_fault};
 use object_store::path::Path;
 use url::Url;
 
@@ -62,7 +62,7 @@ impl Address {
         let name = name.strip_suffix('/').unwrap_or(name);
         // names in buckets are text as it stands, those of web servers are encoded
         let key = if service == Service::Web { Path::from_url_path(name) } else { Path::parse(name) };
-        let key = key.map_err(|error| StoreError::BadAddress(format!("the name cannot be read: {error}")))?;
+        let key = key.map_err(|error| StoreError::BadAddress(name_fault(&error)))?;
         Ok(Self { service, root: format!("{begin}{bucket}"), bucket: bucket.to_owned(), key, is_folder })
     }
 

@@ -1,6 +1,7 @@
 //! Why a store gave no bytes, in words that are the same in each run: no times, and no numbers of attempts.
 
 use object_store::client::{HttpError, HttpErrorKind};
+use object_store::path::Error as PathError;
 use std::error::Error;
 use std::io;
 use thiserror::Error as ThisError;
@@ -82,10 +83,21 @@ impl From<object_store::Error> for StoreError {
             E::PermissionDenied { .. } | E::Unauthenticated { .. } => Self::Refused,
             E::NotSupported { .. } => Self::WholeFilesOnly,
             E::Precondition { .. } | E::NotModified { .. } => Self::Changed,
-            E::InvalidPath { source } => Self::BadAddress(format!("the name cannot be read: {source}")),
+            E::InvalidPath { source } => Self::BadAddress(name_fault(source)),
             _ => of_text(&error),
         }
     }
+}
+
+/// Why a name is none of a store, without the words of the library.
+pub(crate) fn name_fault(error: &PathError) -> String {
+    let why = match error {
+        PathError::EmptySegment { .. } => "has an empty part: two slashes stand side by side",
+        PathError::BadSegment { .. } => "has a part that no store takes, such as . or ..",
+        PathError::NonUnicode { .. } => "has % codes that are no UTF-8",
+        _ => "cannot be read",
+    };
+    format!("the name in this address {why}")
 }
 
 fn of_text(error: &object_store::Error) -> StoreError {
@@ -122,6 +134,11 @@ fn first_line(text: &str) -> &str {
     text.lines().next().unwrap_or_default()
 }
 
+/// A store error with its advice, for who reads the bytes as those of a file.
+#[derive(Debug, ThisError)]
+#[error("{}; {}", .0, .0.hint())]
+struct Advised(StoreError);
+
 impl From<StoreError> for io::Error {
     fn from(error: StoreError) -> Self {
         let kind = match error {
@@ -130,6 +147,6 @@ impl From<StoreError> for io::Error {
             StoreError::CutShort => io::ErrorKind::ConnectionAborted,
             _ => io::ErrorKind::Other,
         };
-        Self::new(kind, error)
+        Self::new(kind, Advised(error))
     }
 }

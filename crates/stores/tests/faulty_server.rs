@@ -212,7 +212,7 @@ fn what_a_server_withholds_is_an_error_and_never_an_end() {
     for (words, answer, tag) in manners {
         let (file, _) = served(Manner { answer, tag });
         let error = read_whole(&file).expect_err(words).to_string();
-        assert!(error.contains(words), "{words}: {error}");
+        assert!(error.contains(words) && error.contains("; "), "{words}: {error}");
         assert!(file.failure().is_some_and(|failure| failure.to_string() == error), "{words}");
         // a decoder meets the same error, whether at the beginning or on the way
         let heard = Recording::open_file(Arc::new(file), &OpenOptions::default()).map_err(|error| error.to_string());

@@ -16,7 +16,7 @@ const GIVE_TWO: &str =
     "run `hovertone batch ARCHIVE -o OUT` for each of the two archives, then give the two OUT folders";
 /// What writes the table of a folder, where its recordings are heard already.
 const RUN_AGAIN: &str =
-    "run the same `hovertone batch` command again: it hears only what is missing, and writes the table";
+    "run the same `hovertone batch` command again: it hears only the other recordings, and writes the table";
 
 /// Compares two folders of results.
 pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {

@@ -34,7 +34,10 @@ pub(super) fn table_failure(error: &TableError, path: &Path) -> Failure {
         TableError::NoUnit { .. } => "write the unit into the header: thrust_g, thrust_n, thrust_kg or thrust_lbf",
         TableError::Csv(error) => error.hint(),
         TableError::HeaderAlone => "write a row for each measurement below the header",
-        TableError::NoRow => "check whether the speed is 0 in all rows: perhaps the tachometer was not connected",
+        TableError::NoRow => {
+            "look at the columns of speed and force: without a tachometer or a scale, a table has only zeros or empty \
+             cells there"
+        }
         _ => "correct the cell, or remove the row",
     };
     Failure::Usage { what: error.to_string(), hint: hint.to_owned(), path: Some(path.to_owned()) }

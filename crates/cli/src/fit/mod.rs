@@ -18,7 +18,7 @@ use hovertone::thrust::{
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json};
 use hovertone_vehicle::{Estimate, RotorSpeed, check_tips, number_in_words};
-use notices::{far_off_notice, hint_of_note, notice_of, rotors_notice, too_large_notice, too_strong_notice};
+use notices::{far_off_notice, notice_of, rotors_notice, too_large_notice, too_strong_notice};
 use planned::plan_campaign;
 use std::path::Path;
 
@@ -165,7 +165,7 @@ fn fitted_table(
         .or_else(|| too_strong_notice(group, per_rotor, plan.given_rotors.is_some()))
         .filter(|_| coefficients.is_none());
     let std_columns = if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] };
-    let of_table = table.notes.iter().map(|note| Notice::new(note, hint_of_note(note)));
+    let of_table = table.notes.iter().map(|note| Notice::new(note.to_string(), note.hint()));
     let notes = rotors_notice(table, is_weighed, plan).into_iter().chain(of_table);
     Ok(FittedTable {
         file: path.display().to_string(),

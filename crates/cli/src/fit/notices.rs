@@ -45,17 +45,6 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
     }
 }
 
-/// What to do about a note on a table; empty where it only says what was done with rows.
-pub(super) fn hint_of_note(note: &str) -> &'static str {
-    match note {
-        note if note.contains("its name has no unit") => {
-            "if hovertone should use this column, write the unit into its name, as in thrust_g"
-        }
-        note if note.starts_with("column ") => "if hovertone should use this column, remove the other column",
-        _ => "",
-    }
-}
-
 /// A notice where several rotors make the forces, or seem to, and the user does not say so.
 pub(super) fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<Notice> {
     match table.rotor_count.filter(|count| *count > 1) {

@@ -4,7 +4,7 @@ use crate::args::FitArguments;
 use crate::failure::{Ending, Failure};
 use crate::place::refuse_height_alone;
 use crate::terminal::Terminal;
-use hovertone::thrust::{Gravity, PlanError, PlanWish, ThrustSettings, flight_plan};
+use hovertone::thrust::{BudgetInput, Gravity, PlanError, PlanWish, ThrustSettings, flight_plan};
 use hovertone_report::flight_plan_text;
 use hovertone_vehicle::{KnownRotor, QuantityError};
 
@@ -46,11 +46,7 @@ pub(super) fn plan_campaign(
     };
     let plan = flight_plan(&wish).map_err(|error| {
         let hint = match error {
-            PlanError::OutOfReach { .. } => {
-                "give a larger --wanted-share; or measure better, then plan again: weigh more exactly \
-                 (--mass-std-kg), give the place of the flight (--latitude-deg), or record so near the vehicle that \
-                 `hovertone speed` separates the rotors (--rotors-separated)"
-            }
+            PlanError::OutOfReach { largest, .. } => hint_against(largest),
             PlanError::Quantity(QuantityError { name: "wanted_share", .. }) => "for 2 % give --wanted-share 0.02",
             _ => "see `hovertone fit --help`",
         };
@@ -63,4 +59,22 @@ pub(super) fn plan_campaign(
         terminal.text(&flight_plan_text(&plan, &wish))?;
     }
     Ok(Ending::Done)
+}
+
+/// What makes the largest part of an uncertainty smaller.
+fn hint_against(largest: BudgetInput) -> &'static str {
+    match largest {
+        BudgetInput::VehicleMass | BudgetInput::AddedMass | BudgetInput::Scale => {
+            "give a larger --wanted-share; or weigh more exactly, and plan again with --mass-std-kg"
+        }
+        BudgetInput::Gravity => {
+            "give a larger --wanted-share; or plan again with the place of the flight (--latitude-deg), which gives the \
+             local gravity"
+        }
+        BudgetInput::LoudestRotor => {
+            "give a larger --wanted-share; or record so near the vehicle that `hovertone speed` separates the rotors, \
+             and plan again with --rotors-separated"
+        }
+        _ => "give a larger --wanted-share",
+    }
 }

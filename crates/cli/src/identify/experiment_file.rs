@@ -137,6 +137,8 @@ fn meaning_failure(error: &ExperimentError, path: &Path) -> Failure {
             (contradiction.to_string(), hint.to_owned())
         }
         ExperimentError::Vehicle(contradiction) => (contradiction.to_string(), contradiction.hint()),
+        ExperimentError::Missing { what, hint } => (format!("{what} is missing"), (*hint).to_owned()),
+        ExperimentError::Contradiction { what, hint } => (what.clone(), (*hint).to_owned()),
         _ => (error.to_string(), SEE_EXAMPLE.to_owned()),
     };
     Failure::Usage { what, hint, path: Some(path.to_owned()) }

@@ -12,7 +12,7 @@ use crate::terminal::Terminal;
 use crate::wav::WavFile;
 use hovertone_report::{SimulatedFlight, SimulatedRotor, printable, simulated_flight_table};
 use hovertone_sim::scenario::{ScenarioRun, ScenarioTruth, TRUTH_COLUMNS, truth_cells};
-use hovertone_sim::{FlightState, scenario::ScenarioError};
+use hovertone_sim::{FlightState, Surroundings, scenario::ScenarioError};
 use hovertone_vehicle::RotorSpeed;
 use scenario_file::ScenarioSource;
 use std::fs::File;
@@ -88,9 +88,14 @@ fn write_rows(table: &mut csv::Writer<File>, rows: &mut Vec<FlightState>) -> Res
 /// The failure for a flight that leaves the range of the sound model.
 fn stopped(error: &ScenarioError, flown: &ScenarioRun, source: &ScenarioSource) -> Failure {
     let what = format!("the simulated flight stopped after {:.2} s: {error}", flown.time_s());
-    let hint =
-        "keep the flight within the room and near the microphones, or remove [room] from the scenario".to_owned();
-    Failure::Failed { what, hint, path: Some(source.path.clone()) }
+    let hint = match source.scenario.sound.surroundings {
+        Surroundings::Room(_) => {
+            "keep the flight within the room and near the microphones, or remove [room] from the scenario"
+        }
+        Surroundings::Ground { .. } => "keep the flight above the ground and near the microphones",
+        Surroundings::FreeField => "keep the flight near the microphones",
+    };
+    Failure::Failed { what, hint: hint.to_owned(), path: Some(source.path.clone()) }
 }
 
 fn summary_of(source: &ScenarioSource, truth: &ScenarioTruth) -> SimulatedFlight {

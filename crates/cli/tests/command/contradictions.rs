@@ -1,6 +1,6 @@
 //! What contradicts a known vehicle, or the results of one, is refused: on the command line and in a file alike.
 
-use crate::testkit::{hovertone, refused_with, steady_bench, steady_hover, text, write_hover};
+use crate::testkit::{hovertone, recordings, refused_with, steady_bench, steady_hover, text, write_hover};
 use hovertone_sim::HoverSettings;
 use hovertone_vehicle::{RotorSpeed, find_preset};
 use serde_json::Value;
@@ -41,6 +41,26 @@ fn a_speed_too_fast_for_the_propellers_of_a_vehicle_is_doubtful() {
     write_hover(&sound, steady_bench("crazyflie", RotorSpeed::from_rev_s(348.0), 3.0));
     let run = hovertone(&["speed", text(&sound), "--vehicle", "f450", "--mean-only"]).ends_with(3);
     assert!(run.stderr.contains("at Mach 0.8") && run.stderr.contains("(hint: check the vehicle)"), "{}", run.stderr);
+}
+
+/// The vehicle tells no blades and no gear: what was given beside it may be wrong too.
+#[test]
+fn a_fact_given_beside_a_vehicle_is_named_beside_it() {
+    let Some(videos) = recordings("flight-video") else { return };
+    let video = videos.join("takeoff.mp4");
+    let run = hovertone(&["speed", text(&video), "--vehicle", "tello", "--gear", "10:40"]).ends_with(3);
+    assert!(run.stderr.contains("in place of the vehicle and the gear"), "{}", run.stderr);
+    let Some(real) = recordings("real") else { return };
+    let bebop = real.join("bebop_B_S2_D1_067.flac");
+    let run = hovertone(&["speed", text(&bebop), "--vehicle", "tello"]).ends_with(3);
+    let left = "the given facts leave one rotor speed only, and the sound does not show it clearly; check the vehicle (--vehicle)";
+    assert!(run.stderr.contains(left), "{}", run.stderr);
+    let wrong_blades = hovertone(&["speed", text(&video), "--blades", "2"]).ends_with(3);
+    let asked = "check the number of blades (--blades), and give the diameter of the propellers (--diameter-m)";
+    assert!(wrong_blades.stderr.contains(asked), "{}", wrong_blades.stderr);
+    let of_preset = hovertone(&["speed", text(&video), "--vehicle", "f450"]).ends_with(3);
+    let asked = "check the vehicle (--vehicle), and give the mass (--mass-kg)";
+    assert!(of_preset.stderr.contains(asked), "{}", of_preset.stderr);
 }
 
 /// Frames of a length that the method of the answer does not use tell nothing against the vehicle.
@@ -97,7 +117,8 @@ fn facts_that_make_a_sure_speed_ambiguous_are_named() {
     for mass_kg in ["0.08", "0.1", "0.12"] {
         let run = hovertone(&[&asked[..], &["--diameter-m", "0.1", "--mass-kg", mass_kg]].concat());
         if run.stderr.contains("ambiguous:") {
-            let words = ["the given facts contradict one of them: at 60.", "--diameter-m", "--mass-kg", "0.03 to 0.25"];
+            let facts = "check the number of blades (--blades), the diameter of the propellers (--diameter-m), the mass (--mass-kg)";
+            let words = ["the given facts contradict one of them: at 60.", facts, "0.03 to 0.25"];
             words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word}: {}", run.stderr));
             named += 1;
         }

@@ -108,7 +108,7 @@ fn what_is_no_flight_is_refused_in_one_line() {
         &[
             "no command together with the angle or rate",
             "climb lacks its command",
-            "log a column command_roll with values from −1 to 1",
+            "log the columns command_roll (from −1 to 1) and roll_deg",
         ],
     );
     refused_with(&["greybox", &short, "--vehicle", "ardron"], &["did you mean \"ardrone\"?"]);
@@ -117,7 +117,7 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let few = log("few.csv", &(turning.clone() + &few));
     refused_with(
         &["greybox", &few, "--vehicle", "ardrone"],
-        &["the flight is too short: 0.3 s hold 29 speeds, and 2 s or more are needed"],
+        &["the flight is too short: it has 29 speeds in 0.3 s, but a fit needs 2 s or more"],
     );
     // neither commands nor speeds that never change show a model
     let long = |command: fn(u32) -> f64| {

@@ -67,7 +67,7 @@ fn faults_of_a_file_are_told_in_its_own_words() {
     failed_with(&["vehicles", "--add", &experiment], &["this is an experiment file", "`hovertone identify`"]);
     for (vehicle, of_load, words) in [
         ("rotors = 6", "", ["leave rotors or preset out under [vehicle]", "rotors_running"]),
-        ("mass_kg = 413", "", ["413 kg (did you mean 0.413?), but", "weighs 0.413 kg"]),
+        ("mass_kg = 413", "", ["mass_kg = 413 (did you mean 0.413?), but", "preset weighs 0.413 kg"]),
         ("", "from_s = 5.0\nto_s = 2.0", ["load \"a\": the end of the part", "write a later to_s"]),
     ] {
         let experiment = written(folder.path(), "e.toml", &load(vehicle, of_load));
@@ -103,7 +103,8 @@ fn a_bench_is_asked_for_a_band_and_for_no_mass_first() {
     let Some(bench) = recordings("crazyflie-propeller") else { return };
     let sound = bench.join("64000.wav");
     let said = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&sound)]).ends_with(3).stderr;
-    assert!(said.contains("on a bench, give the band around the tone of the blades with --band LOW:HIGH"), "{said}");
+    let asked = "check the number of blades (--blades); on a bench, give the band around the tone of the blades with --band LOW:HIGH";
+    assert!(said.contains(asked), "{said}");
     let band = ["speed", "--blades", "2", "--rotors", "1", "--band", "780:840", text(&sound)];
     hovertone(&band).ends_with(0);
 }

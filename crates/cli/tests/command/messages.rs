@@ -242,7 +242,10 @@ fn a_number_out_of_range_is_told_in_one_form() {
         (format!("{weigh} -1"), "constant_n_s2 = -1, and it must be a number above 0"),
         (format!("{weigh} 2.83e-5 --constant-std-n-s2 nan"), "constant_std_n_s2 = NaN, and it must be 0 or more"),
         (format!("{weigh} 2.83e-5 --latitude-deg 95"), "latitude_deg = 95, and it must be from -90 to 90"),
-        (format!("{weigh} 2.83e-5 --gravity-m-s2 8"), "gravity_m_s2 = 8, and it must be from 9.7 to 9.9: no place"),
+        (
+            format!("{weigh} 2.83e-5 --gravity-m-s2 8"),
+            "gravity_m_s2 = 8, and it must be from 9.7 to 9.9, because no place",
+        ),
         ("fit a.csv --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
         ("fit --plan --mass-kg 1 --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
         ("speed a.wav --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
@@ -262,7 +265,10 @@ fn a_number_out_of_range_is_told_in_one_form() {
         (format!("export {results} --to gazebo --hover-command 2"), "hover_command = 2, and it must be from 0 to 1"),
         (format!("export {results} --to gazebo --diameter-m 254"), "diameter_m = 254, and it must be from 0.01 to 10"),
         (format!("identify {far}"), "vehicle.latitude_deg = 95, and it must be from -90 to 90"),
-        (format!("identify {light}"), "vehicle.gravity_m_s2 = 8, and it must be from 9.7 to 9.9: no place on Earth"),
+        (
+            format!("identify {light}"),
+            "vehicle.gravity_m_s2 = 8, and it must be from 9.7 to 9.9, because no place on Earth",
+        ),
         (format!("identify {large}"), "vehicle.propeller_diameter_m = 254, and it must be from 0.01 to 10"),
         (format!("simulate {scenario}"), "duration_s = -1, and it must be above 0"),
     ] {
@@ -291,10 +297,10 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
     let experiment = write("e.toml", b"# mine\n[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n");
     let scenario = write("s.toml", b"duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n");
     for (arguments, code, said) in [
-        (vec!["fit", &json], 1, "this file is JSON, and a table is needed"),
-        (vec!["fit", &empty], 1, "this file is empty, and a table is needed"),
-        (vec!["fit", &experiment], 1, "this file is TOML, and a table is needed (hint: give a CSV file"),
-        (vec!["log", &scenario], 1, "this file is TOML, and a table is needed (hint: give a CSV file"),
+        (vec!["fit", &json], 1, "this file is JSON and no table"),
+        (vec!["fit", &empty], 1, "this file is empty, so it holds no table"),
+        (vec!["fit", &experiment], 1, "this file is TOML and no table (hint: give a CSV file"),
+        (vec!["log", &scenario], 1, "this file is TOML and no table (hint: give a CSV file"),
         (vec!["identify", &json], 1, "this file is JSON, so it cannot be the experiment file"),
         (vec!["export", &results, "--into", &results], 1, "this JSON is no model of a simulator"),
         (vec!["compare", &results, &results], 1, "this JSON is no model of a simulator"),
@@ -305,7 +311,7 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
         ),
         (vec!["export", &json, "--to", "gazebo", "--group", "x"], 2, "these results have no groups"),
         (vec!["export", &empty, "--to", "gazebo"], 1, "the file is empty"),
-        (vec!["export", &broken, "--to", "gazebo"], 1, "the file ends too early, on line 1"),
+        (vec!["export", &broken, "--to", "gazebo"], 1, "the file ends too early, in line 1"),
         (vec!["export", &sound, "--to", "gazebo"], 1, "this file is not text, so it cannot be the results"),
     ] {
         let run = hovertone(&arguments).ends_with(code);

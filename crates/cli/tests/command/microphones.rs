@@ -71,7 +71,11 @@ fn a_file_that_cannot_be_used_is_refused_with_what_to_do() {
     let vehicle = ["--vehicle", "ardrone"];
     refused(STANDS, &["--blades", "2"], &["needs the number of rotors", "--rotors 4"]);
     refused(STANDS, &["--blades", "2", "--rotors", "4"], &["places of the rotors", "[[rotor]]"]);
-    refused("[[microphone]]\nposition_m = [1.0, 0.0, 0.0]\n", &vehicle, &["microphones: 1", "[[microphone]]"]);
+    refused(
+        "[[microphone]]\nposition_m = [1.0, 0.0, 0.0]\n",
+        &vehicle,
+        &["the number of microphones is 1", "[[microphone]]"],
+    );
     refused("position_std = 0.1\n", &vehicle, &["unknown key \"position_std\"", "position_std_m"]);
     refused(&format!("position_std_m = 0.0\n{STANDS}"), &vehicle, &["position_std_m", "0.001"]);
     refused("[[microphone]]\nposition_m = [1.0, 2.0]\n", &vehicle, &["stands.toml:2"]);

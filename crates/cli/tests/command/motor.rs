@@ -195,7 +195,7 @@ fn a_thrust_stand_tells_time_constants_and_its_saturated_step() {
     assert!(line["motors"][0]["static_map"]["offset_rev_s"].as_f64().unwrap() < 0.0);
     let shown = hovertone(&["motor", text(&log)]).ends_with(0).stdout;
     let gains = shown.split("C_τ").next().unwrap_or_default();
-    assert!(shown.contains("line at command 0") && !gains.contains('−'), "{shown}");
+    assert!(shown.contains("speed at command 0") && !gains.contains('−'), "{shown}");
     // the stand shows −0.0039 N m at rest, and 0.0373 N m at 348 rev/s: (0.0373 + 0.0039)/(2π 348)² = 8.6e-9
     let [constant, std] = ["", "_std"].map(|of| line[format!("torque_constant{of}_n_m_s2")].as_f64().unwrap());
     assert!((constant - 8.7e-9).abs() < 0.2e-9 && std < 0.1e-9, "{constant} {std}");
@@ -206,9 +206,13 @@ fn a_thrust_stand_tells_time_constants_and_its_saturated_step() {
 fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
     let Some(logs) = recordings("logs") else { return };
     let run = hovertone(&["motor", text(&logs.join("px4_esc_status.ulg"))]).ends_with(3);
-    for words in
-        ["4 motors", "too few rows for a time constant", "speed of each command\n", "output 4", "no command is held"]
-    {
+    for words in [
+        "4 motors",
+        "too few rows for a time constant",
+        "speed of each command\n",
+        "output 4",
+        "no two commands are held",
+    ] {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
     assert!(!run.stdout.contains("timeConstant"));

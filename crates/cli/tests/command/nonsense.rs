@@ -209,13 +209,13 @@ fn rows_have_the_cells_of_the_header() {
         vec!["fit".to_owned(), text(&table).to_owned()]
     };
     for (row, words) in [
-        ("3500", "line 3: the row has 1 cell, but the header has 2"),
-        ("3500,1.36,7", "line 3: the row has 3 cells, but the header has 2"),
-        ("3500,1,36", "line 3: the row has 3 cells"),
+        ("3500", ["line 3: the row has 1 cell, but the header has 2", "complete or remove the row"]),
+        ("3500,1.36,7", ["line 3: the row has 3 cells, but the header has 2", "the decimal sign is a comma"]),
+        ("3500,1,36", ["line 3: the row has 3 cells", "the decimal sign is a comma"]),
     ] {
         let arguments = fit(row);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        refused_with(&arguments, &[words, "the decimal sign is a comma", "stand.csv"]);
+        refused_with(&arguments, &[words[0], words[1], "stand.csv"]);
     }
     let arguments = fit("3500,1.36,");
     hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0);

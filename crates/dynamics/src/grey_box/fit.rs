@@ -58,7 +58,7 @@ pub enum GreyBoxStop {
     #[error("the log has no axis (roll, pitch, yaw or climb) with both a command and its measured value")]
     NoLoop,
     /// Too few observations within the log.
-    #[error("only {found} speeds lie within the time of the log, and {needed} are needed")]
+    #[error("only {found} speeds lie within the time of the log, but a fit needs {needed}")]
     TooFew {
         /// Number of observations.
         found: usize,
@@ -66,7 +66,9 @@ pub enum GreyBoxStop {
         needed: usize,
     },
     /// Nearly all observations lie within the log, and these are too few.
-    #[error("the flight is too short: {flight_s:.1} s hold {found} speeds, and {needed_s:.0} s or more are needed")]
+    #[error(
+        "the flight is too short: it has {found} speeds in {flight_s:.1} s, but a fit needs {needed_s:.0} s or more"
+    )]
     TooShort {
         /// Time from the first to the last observation, s.
         flight_s: f64,

@@ -67,7 +67,7 @@ impl TorqueConstant {
             Self::Told(_) => None,
             Self::NoYawRate => Some("the log has no yaw rate".to_owned()),
             Self::NoManoeuvre { std_share } => Some(format!(
-                "the yaw manoeuvres are too small: the standard uncertainty would be {:.0} %; fly yaw doublets (stick \
+                "the yaw manoeuvres are too small: the standard uncertainty of C_τ would be {:.0} %; fly yaw doublets (stick \
                 one way, then the other) of 0.5 s or longer",
                 (100.0 * std_share).min(999.0)
             )),

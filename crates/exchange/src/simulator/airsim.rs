@@ -6,19 +6,16 @@ use crate::identified::IdentifiedRotor;
 use crate::units::ConstantUnits;
 use std::f64::consts::TAU;
 
-const NEEDED_BOTH: &str = "the propellers' diameter and the air's density: give --diameter-m and --air-density-kg-m3, or write \
-     vehicle.propeller_diameter_m and [air] into the experiment file";
-const NEEDED_AIR: &str = "the air's density: give --air-density-kg-m3, or write [air] into the experiment file";
-const NEEDED_DIAMETER: &str =
-    "the propellers' diameter: give --diameter-m, or write vehicle.propeller_diameter_m into the experiment file";
-
 pub(super) fn write(rotor: &IdentifiedRotor) -> Result<String, ModelError> {
-    let needs = |what| Err(ModelError::Needs { format: "airsim", what });
+    let needs = |what, is_one, flags| Err(ModelError::Needs { format: "airsim", what, is_one, flags });
     let (density, diameter_m) = match (rotor.air_density_kg_m3, rotor.propeller_diameter_m) {
         (Some(density), Some(diameter_m)) => (density, diameter_m),
-        (None, Some(_)) => return needs(NEEDED_AIR),
-        (Some(_), None) => return needs(NEEDED_DIAMETER),
-        (None, None) => return needs(NEEDED_BOTH),
+        (None, Some(_)) => return needs("the density of the air", true, "--air-density-kg-m3"),
+        (Some(_), None) => return needs("the diameter of the propellers", true, "--diameter-m"),
+        (None, None) => {
+            let both = "the diameter of the propellers and the density of the air";
+            return needs(both, false, "--diameter-m and --air-density-kg-m3");
+        }
     };
     let constant = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2);
     let coefficient = constant.coefficient(density, diameter_m);

@@ -45,15 +45,16 @@ fn table_name(vehicle_name: &str) -> String {
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let broken = |reason: String| ModelError::Broken { format: "TOML", reason };
+    let incomplete = |reason: String| ModelError::Incomplete { reason };
     let file: Table = toml::from_str(text).map_err(|error| broken(error.message().to_owned()))?;
     let vehicles: Vec<&Table> =
         file.values().filter_map(Value::as_table).filter(|vehicle| vehicle.contains_key("rpm2thrust")).collect();
     let vehicle = match vehicles[..] {
         [vehicle] => vehicle,
-        [] => return Err(broken("no vehicle in it has the key rpm2thrust".to_owned())),
+        [] => return Err(incomplete("no vehicle in it has the key rpm2thrust".to_owned())),
         _ => {
             let count = vehicles.len();
-            return Err(broken(format!("{count} vehicles have rpm2thrust; keep only the one that you mean")));
+            return Err(incomplete(format!("{count} vehicles in it have the key rpm2thrust, and it must be one")));
         }
     };
     let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
@@ -61,7 +62,8 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         let list: Vec<f64> = vehicle.get(name)?.as_array()?.iter().filter_map(number).collect();
         list.try_into().ok()
     };
-    let [a, b, c] = polynomial("rpm2thrust").ok_or_else(|| broken("rpm2thrust must have three numbers".to_owned()))?;
+    let [a, b, c] =
+        polynomial("rpm2thrust").ok_or_else(|| incomplete("rpm2thrust must have three numbers".to_owned()))?;
     let rpm_per_rad_s = 60.0 / TAU;
     Ok(SimulatorModel {
         thrust_linear_n_s: b * rpm_per_rad_s,

@@ -34,7 +34,9 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let dynamics = documents.first().ok_or(ModelError::Unknown)?;
     let map = dynamics.as_mapping_get("thrust_map").and_then(Yaml::as_sequence).ok_or(ModelError::Unknown)?;
     let map: Vec<f64> = map.iter().filter_map(number_of).collect();
-    let [c, b, a] = map[..] else { return Err(broken("thrust_map must have three numbers".to_owned())) };
+    let [c, b, a] = map[..] else {
+        return Err(ModelError::Incomplete { reason: "thrust_map must have three numbers".to_owned() });
+    };
     let of = |name: &str| dynamics.as_mapping_get(name).and_then(number_of);
     Ok(SimulatorModel {
         thrust_linear_n_s: b,

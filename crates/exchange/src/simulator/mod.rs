@@ -165,6 +165,12 @@ pub enum ModelError {
         /// Reason.
         reason: String,
     },
+    /// A valid file without what a model needs.
+    #[error("the model cannot be used: {reason}")]
+    Incomplete {
+        /// Reason.
+        reason: String,
+    },
     /// A number out of range.
     #[error(transparent)]
     Quantity(#[from] QuantityError),
@@ -190,12 +196,16 @@ pub enum ModelError {
     )]
     OwnExport,
     /// A format that needs more numbers than the result has.
-    #[error("{format} needs {what}")]
+    #[error("the format {format} needs {what}, and the results do not have {}", if *is_one { "it" } else { "them" })]
     Needs {
         /// The format.
         format: &'static str,
-        /// The missing number, and where to give it.
+        /// The missing numbers.
         what: &'static str,
+        /// Whether one number is missing.
+        is_one: bool,
+        /// Flags of `hovertone export` that give them.
+        flags: &'static str,
     },
 }
 
@@ -243,7 +253,7 @@ pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
     for (name, value) in [
         (name, Some(model.thrust_constant_n_s2)),
         ("the mass", model.mass_kg),
-        ("the propellers' diameter", model.propeller_diameter_m),
+        ("the diameter of the propellers", model.propeller_diameter_m),
         ("the number of rotors", model.rotor_count.map(f64::from)),
     ] {
         value.map_or(Ok(()), |value| check_positive(name, value))?;

@@ -199,10 +199,11 @@ fn what_is_no_model_says_why() {
     }
     let unlike = "<a><motorConstant>1e-6</motorConstant><motorConstant>2e-6</motorConstant></a>";
     assert!(matches!(model_from_text(unlike), Err(ModelError::UnlikeRotors { .. })));
-    assert!(matches!(model_from_text("[a]\nrpm2thrust = [1.0]\n"), Err(ModelError::Broken { .. })));
+    assert!(matches!(model_from_text("[a]\nrpm2thrust = [1.0]\n"), Err(ModelError::Incomplete { .. })));
     let rotor = IdentifiedRotor { air_density_kg_m3: None, ..rotor() };
     let refusal = export_text(&rotor, SimulatorFormat::Airsim).unwrap_err();
-    assert!(refusal.to_string().contains("--air-density-kg-m3"), "{refusal}");
+    let said = "the format airsim needs the density of the air, and the results do not have it";
+    assert_eq!(refusal.to_string(), said);
 }
 
 /// The name of a file or a group cannot end the comment around it.

@@ -25,19 +25,19 @@ pub enum TableError {
         column: String,
     },
     /// A number out of range.
-    #[error("line {line}, column \"{column}\": {}: {must_be}", number_in_words(*value))]
+    #[error("line {line}, column \"{column}\": {} is {fault}", number_in_words(*value))]
     OutOfRange {
         /// Line, counted from 1.
         line: u64,
         /// Header of its column.
         column: String,
-        /// The number.
+        /// The number, in the unit of the column.
         value: f64,
-        /// Allowed numbers.
-        must_be: &'static str,
+        /// What is wrong with it, after "is".
+        fault: &'static str,
     },
     /// Numbers of several rows that only another unit than that of the header explains.
-    #[error("column \"{column}\": {count} of {of} numbers are {must_be}; the largest one is {}", number_in_words(*largest))]
+    #[error("column \"{column}\": {count} of {of} numbers are {fault}; the largest one is {}", number_in_words(*largest))]
     OtherUnit {
         /// Header of the column.
         column: String,
@@ -47,8 +47,8 @@ pub enum TableError {
         of: usize,
         /// The largest of these numbers.
         largest: f64,
-        /// The limit.
-        must_be: &'static str,
+        /// What is wrong with them, after "are".
+        fault: &'static str,
         /// A header with the unit that is probably meant; absent where none of the known units is.
         header: Option<&'static str>,
     },
@@ -56,6 +56,8 @@ pub enum TableError {
     #[error("the table has a header and no row below it")]
     HeaderAlone,
     /// No row with a turning rotor.
-    #[error("no row has both a speed and a thrust: there is nothing to fit")]
+    #[error(
+        "there is nothing to fit: in every row, the speed or the force (thrust or mass) is missing, is zero, or is far too small"
+    )]
     NoRow,
 }

@@ -3,11 +3,13 @@
 mod column;
 mod error;
 mod grouping;
+mod note;
 mod plausible;
 #[cfg(test)]
 mod tests;
 
 pub use error::TableError;
+pub use note::TableNote;
 
 use crate::csv_text::{CsvError, CsvText, line_of};
 use column::{Column, Quantity, columns_of, rotors_in};
@@ -86,8 +88,8 @@ pub struct StandTable {
     pub rotor_count: Option<u32>,
     /// Headers of the columns with the standard uncertainties of force and speed.
     pub std_columns: Vec<String>,
-    /// Notes about rows that were left out or turned round.
-    pub notes: Vec<String>,
+    /// Notes about columns that are not used, and about rows that were left out or turned round.
+    pub notes: Vec<TableNote>,
 }
 
 /// Reads a table, separated by commas, semicolons or tabs. The headers give the quantities of the columns: a speed (rpm, rad/s, rev/s), a
@@ -129,9 +131,8 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     }
     plausible::check(&rows, MeasuredColumns { speed, force })?;
     let unit_missing = columns.iter().filter(|column| column.lacks_unit);
-    let mut notes: Vec<String> = unit_missing
-        .map(|column| format!("column \"{}\" is not used: its name has no unit that hovertone knows", column.header))
-        .collect();
+    let mut notes: Vec<TableNote> =
+        unit_missing.map(|column| TableNote::UnitMissing { column: column.header.clone() }).collect();
     notes.extend(rivals(&csv, &columns, &records, [speed, force]));
     turn_round(&mut rows, &mut notes);
     leave_out_resting(&mut rows, &mut notes);
@@ -183,9 +184,9 @@ fn numbers_in(csv: &CsvText, column: &Column, records: &[StringRecord]) -> usize
 }
 
 /// Notes about columns that could have been the speed or the force as well: one for the speed, one for the force.
-fn rivals(csv: &CsvText, columns: &[Column], records: &[StringRecord], used: [&Column; 2]) -> Vec<String> {
+fn rivals(csv: &CsvText, columns: &[Column], records: &[StringRecord], used: [&Column; 2]) -> Vec<TableNote> {
     let [speed, force] = used;
-    let note = |(what, chosen): (&str, &Column)| {
+    let note = |(what, chosen): (&'static str, &Column)| {
         let is_rival = |column: &&Column| {
             let is_of_kind = match column.quantity {
                 Some(Quantity::Speed) => what == "speed",
@@ -194,12 +195,8 @@ fn rivals(csv: &CsvText, columns: &[Column], records: &[StringRecord], used: [&C
             };
             is_of_kind && column.index != chosen.index && numbers_in(csv, column, records) > 0
         };
-        let rivals: Vec<String> =
-            columns.iter().filter(is_rival).map(|column| format!("\"{}\"", column.header)).collect();
-        let (noun, verb) = if rivals.len() == 1 { ("column", "is") } else { ("columns", "are") };
-        let chosen = &chosen.header;
-        (!rivals.is_empty())
-            .then(|| format!("{noun} {} {verb} not used: the {what} comes from column \"{chosen}\"", rivals.join(", ")))
+        let rivals: Vec<String> = columns.iter().filter(is_rival).map(|column| column.header.clone()).collect();
+        (!rivals.is_empty()).then(|| TableNote::Rivals { columns: rivals, what, chosen: chosen.header.clone() })
     };
     [("speed", speed), ("force", force)].into_iter().filter_map(note).collect()
 }
@@ -225,8 +222,8 @@ impl RowReader<'_> {
             return Err(TableError::OutOfRange {
                 line: line_of(record),
                 column: self.force.header.clone(),
-                value: force,
-                must_be: "a mass that hovers must be above 0",
+                value: plausible::in_unit(force, self.force),
+                fault: "not above 0, but a mass that hovers must be",
             });
         }
         let std = |quantity: Quantity| -> Result<Option<f64>, TableError> {
@@ -237,8 +234,8 @@ impl RowReader<'_> {
                 Some(value) if value < 0.0 => Err(TableError::OutOfRange {
                     line: line_of(record),
                     column: column.header.clone(),
-                    value,
-                    must_be: "a standard uncertainty must be 0 or more",
+                    value: plausible::in_unit(value, column),
+                    fault: "negative, but a standard uncertainty must be 0 or more",
                 }),
                 value => Ok(value),
             }
@@ -276,7 +273,7 @@ impl RowReader<'_> {
 }
 
 /// Reverses the sign of all thrusts of a stand that pulls, and leaves out rows against the sign of most others.
-fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
+fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<TableNote>) {
     let thrust = |row: &StandRow| match row.force {
         StandForce::Thrust { thrust_n } => thrust_n,
         StandForce::Mass { mass_kg } => mass_kg,
@@ -285,10 +282,7 @@ fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
     let turning = rows.iter().map(|of| &of.row).filter(|row| row.speed_rad_s.abs() >= AT_REST_SHARE * fastest);
     let sum: f64 = turning.map(thrust).sum();
     if sum < 0.0 {
-        notes.push(
-            "the thrusts are negative, and are used as positive ones: a stand that is mounted the other way shows the other sign"
-                .to_owned(),
-        );
+        notes.push(TableNote::TurnedRound);
         for GroupedRow { row, .. } in rows.iter_mut() {
             if let StandForce::Thrust { thrust_n } = &mut row.force {
                 *thrust_n = -*thrust_n;
@@ -297,24 +291,19 @@ fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
     }
     let against = |row: &StandRow| thrust(row) <= 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest;
     for row in rows.iter().map(|of| &of.row).filter(|row| against(row)) {
-        let what = "its thrust is zero, or has another sign than the others";
-        notes.push(format!("line {} is left out: {what}", row.line_number));
+        notes.push(TableNote::AgainstTheOthers { line: row.line_number });
     }
     rows.retain(|of| !against(&of.row));
 }
 
 /// Leaves out rows at rest.
-fn leave_out_resting(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
+fn leave_out_resting(rows: &mut Vec<GroupedRow>, notes: &mut Vec<TableNote>) {
     let fastest = fastest_rad_s(rows);
     let before = rows.len();
     rows.retain(|of| of.row.speed_rad_s > 0.0 && of.row.speed_rad_s >= AT_REST_SHARE * fastest);
     if rows.len() < before {
-        let share = 100.0 * AT_REST_SHARE;
-        let count = before - rows.len();
-        let rpm = AT_REST_SHARE * fastest * 60.0 / TAU;
-        notes.push(format!(
-            "rows left out because they are slower than {rpm:.0} rpm ({share:.0} % of the fastest speed): {count}"
-        ));
+        let speed_rpm = AT_REST_SHARE * fastest * 60.0 / TAU;
+        notes.push(TableNote::AtRest { count: before - rows.len(), speed_rpm });
     }
 }
 

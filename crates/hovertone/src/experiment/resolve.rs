@@ -27,7 +27,7 @@ impl Known<'_> {
         let of_preset = self.preset.map(|preset| preset.rotor_count.value);
         match (of_preset, self.model.and_then(|model| model.rotor_count)) {
             (Some(of_preset), Some(of_model)) if of_preset != of_model => Err(ExperimentError::Contradiction {
-                what: format!("the preset has {of_preset} rotors, but the model has {of_model} rotors"),
+                what: format!("the preset has {of_preset} rotors, but the model has {of_model}"),
                 hint: "write the right number as rotors = N under [vehicle]",
             }),
             (of_preset, of_model) => Ok(of_preset.or(of_model)),
@@ -65,7 +65,7 @@ impl ExperimentFile {
         model: Option<VehicleModel>,
     ) -> Result<Experiment, ExperimentError> {
         if self.vehicle.model.is_some() != model.is_some() {
-            return Err(missing("the vehicle's model", "give the file that vehicle.model names"));
+            return Err(missing("the model of the vehicle", "give the file that vehicle.model names"));
         }
         model.as_ref().map_or(Ok(()), check_model)?;
         let preset = match &self.vehicle.preset {
@@ -89,7 +89,7 @@ impl ExperimentFile {
         own_diameter_m.map_or(Ok(()), |diameter_m| check_diameter("vehicle.propeller_diameter_m", diameter_m))?;
         let config = self.resolve_config(known, rotor_count)?;
         if self.loads.is_empty() {
-            return Err(missing("the loads", "write at least one [[load]] with its recordings"));
+            return Err(missing("a load", "write at least one [[load]] with its recordings"));
         }
         self.check_names()?;
         let loads =
@@ -223,13 +223,16 @@ impl ExperimentFile {
             return Err(ExperimentError::OutOfRange {
                 name: named("rotors_running"),
                 value: f64::from(rotors_running),
-                must_be: "must be from 1 to the number of rotors of the vehicle",
+                must_be: "must be from 1 to the number of rotors of the vehicle (rotors under [vehicle], or that of the preset)",
             });
         }
         if rotors_running != rotor_count && load.thrust_n.is_none() {
             return Err(ExperimentError::Contradiction {
-                what: format!("load {:?} hovers with {rotors_running} of {rotor_count} rotors", load.name),
-                hint: "remove rotors_running, or give thrust_n for a bench run",
+                what: format!(
+                    "load {:?} has no thrust_n, so it hovers with {rotors_running} of {rotor_count} rotors",
+                    load.name
+                ),
+                hint: "in a hover all rotors turn: remove rotors_running; for a bench run, write thrust_n",
             });
         }
         if load.recordings.is_empty() {
@@ -262,7 +265,7 @@ impl ExperimentFile {
     ) -> Result<Force, ExperimentError> {
         let mass_kg = self.vehicle.mass_kg.or_else(|| known.mass_kg());
         let mass_kg = mass_kg.ok_or_else(|| {
-            missing("the vehicle's mass", "weigh the vehicle ready to fly, and write mass_kg under [vehicle]")
+            missing("the mass of the vehicle", "weigh the vehicle ready to fly, and write mass_kg under [vehicle]")
         })?;
         let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
             (Some(gravity), None, None) => Gravity::given(gravity),
@@ -280,7 +283,7 @@ impl ExperimentFile {
             (None, None, Some(_)) => {
                 return Err(missing(
                     "vehicle.latitude_deg",
-                    "height_m alone does not give the gravity: write latitude_deg too, or gravity_m_s2",
+                    "the height alone does not give the gravity; write latitude_deg too, or gravity_m_s2 in place of height_m",
                 ));
             }
         };
@@ -298,12 +301,13 @@ impl ExperimentFile {
         {
             let is_in_grams = GRAMS_FACTOR.contains(&(mass_kg / known_kg));
             let meant = if is_in_grams { format!(" (did you mean {}?)", mass_kg / 1e3) } else { String::new() };
+            let has_model_mass = known.model.is_some_and(|model| model.mass_kg.is_some());
+            let other = if has_model_mass { "model" } else { "preset" };
             return Err(ExperimentError::Contradiction {
                 what: format!(
-                    "vehicle.mass_kg = {mass_kg} is {mass_kg} kg{meant}, but the preset or the model weighs \
-                    {known_kg} kg"
+                    "vehicle.mass_kg = {mass_kg}{meant}, but the vehicle of the {other} weighs {known_kg} kg"
                 ),
-                hint: "masses are in kg; check this mass and the name of the vehicle",
+                hint: "masses are in kg; check this mass, and whether the preset or the model is of your vehicle",
             });
         }
         not_negative(&named("added_mass_kg"), added_mass_kg)?;
@@ -311,7 +315,7 @@ impl ExperimentFile {
             return Err(ExperimentError::OutOfRange {
                 name: named("added_mass_kg"),
                 value: added_mass_kg,
-                must_be: "is more than ten times the vehicle's mass; masses are in kg",
+                must_be: "is more than ten times the mass of the vehicle; masses are in kg",
             });
         }
         Ok(Force::Weight {

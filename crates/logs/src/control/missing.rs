@@ -74,7 +74,8 @@ pub(super) fn missing_of(control: &LoggedControl, format: LogFormat) -> Vec<Miss
                     "log navVel: INAV has it, Betaflight does not",
                 ],
             ),
-            (LogFormat::Csv | LogFormat::RcBenchmark, true) => csv_command(control_loop),
+            (LogFormat::Csv | LogFormat::RcBenchmark, true) if is_measured => csv_command(control_loop),
+            (LogFormat::Csv | LogFormat::RcBenchmark, true) => csv_both(control_loop),
             (LogFormat::Csv | LogFormat::RcBenchmark, false) => measured_hint(
                 control_loop,
                 ["log a column roll_deg or pitch_deg", "log a column yaw_rate_rad_s", "log a column velocity_z_m_s"],
@@ -93,6 +94,15 @@ fn measured_hint(control_loop: ControlLoop, [attitude, rate, climb]: [&'static s
         ControlLoop::Roll | ControlLoop::Pitch => attitude,
         ControlLoop::Yaw => rate,
         ControlLoop::Climb => climb,
+    }
+}
+
+fn csv_both(control_loop: ControlLoop) -> &'static str {
+    match control_loop {
+        ControlLoop::Roll => "log the columns command_roll (from −1 to 1) and roll_deg",
+        ControlLoop::Pitch => "log the columns command_pitch (from −1 to 1) and pitch_deg",
+        ControlLoop::Yaw => "log the columns command_yaw_rate (from −1 to 1) and yaw_rate_rad_s",
+        ControlLoop::Climb => "log the columns command_climb (from −1 to 1) and velocity_z_m_s",
     }
 }
 

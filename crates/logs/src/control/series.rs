@@ -62,7 +62,8 @@ impl ControlSeries<'_> {
     /// Drops a command that means something else in the mode of the flight.
     pub(super) fn leave_out(&mut self, control_loop: ControlLoop, hint: &'static str) {
         if self.command[control_loop as usize].take().is_some() {
-            self.missing.push(MissingControl { control_loop, what: "its command in this flight mode", hint });
+            let what = "its command (in this flight mode, the stick commands something else)";
+            self.missing.push(MissingControl { control_loop, what, hint });
         }
     }
 

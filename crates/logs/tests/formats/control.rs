@@ -178,7 +178,7 @@ fn what_a_log_lacks_is_said_for_each_loop_with_what_to_log() {
 
     let csv = control_of(b"time_s,command_roll,roll_deg\n0,0.1,1\n1,0.1,1\n");
     let told: Vec<(ControlLoop, &str)> = missing(&csv).iter().map(|(of, _, hint)| (*of, *hint)).collect();
-    assert_eq!(told[0], (ControlLoop::Pitch, "log a column command_pitch with values from −1 to 1"));
+    assert_eq!(told[0], (ControlLoop::Pitch, "log the columns command_pitch (from −1 to 1) and pitch_deg"));
     assert_eq!(told.len(), 3);
 }
 

@@ -79,7 +79,7 @@ pub(crate) fn codec_name_from_code(code: u16) -> String {
         0x0161..=0x0163 => "WMA",
         0x2000 => "AC-3",
         0x2001 => "DTS",
-        code => return format!("the codec of WAVE code 0x{code:04x}"),
+        code => return format!("sound in an unknown codec (WAVE code 0x{code:04x})"),
     };
     name.to_owned()
 }
@@ -202,7 +202,8 @@ fn layout_from_data<R: Read + Seek>(
         wrong_size: is_placeholder.then_some((declared, rest)),
     };
     if layout.data_bytes < layout.block_bytes {
-        let why = format!("only {} bytes follow the header, less than one audio sample", layout.data_bytes);
+        let follow = if layout.data_bytes == 1 { "byte follows" } else { "bytes follow" };
+        let why = format!("only {} {follow} the header, less than one audio sample", layout.data_bytes);
         return Err(MediaError::NoSamples { container, why });
     }
     Ok(layout)
@@ -284,7 +285,7 @@ impl Format {
                     (CODEC_ID_ADPCM_IMA_WAV, "IMA ADPCM", 4, 1)
                 };
                 let Some(coded) = block_bytes.checked_sub(head * channels) else {
-                    return bad("the size of a block", block_bytes, "long enough for its own header");
+                    return bad("the number of bytes of a block", block_bytes, "enough for the header of a block");
                 };
                 let block_frames = coded * 2 / channels + head_frames;
                 Ok(Self {

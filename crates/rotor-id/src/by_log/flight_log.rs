@@ -63,7 +63,7 @@ pub enum LogError {
         series: usize,
     },
     /// Times that do not increase.
-    #[error("row {row} has the time {time_s} s, which is not later than the time of the row before")]
+    #[error("row {row} (counted from 0) has the time {time_s} s, which is not later than the time of the row before")]
     NotInOrder {
         /// Row, counted from 0.
         row: usize,
@@ -71,7 +71,7 @@ pub enum LogError {
         time_s: f64,
     },
     /// A value that is no number.
-    #[error("row {row} holds a value that is no number")]
+    #[error("row {row} (counted from 0) holds a value that is no number")]
     NotFinite {
         /// Row, counted from 0.
         row: usize,

@@ -28,19 +28,19 @@ pub struct MicrophoneArray {
 #[non_exhaustive]
 pub enum ArrayError {
     /// Fewer than two microphones: nothing can be compared.
-    #[error("microphones: {count}; at least 2 are needed")]
+    #[error("the number of microphones is {count}, but at least 2 are needed")]
     TooFewMicrophones {
         /// Number of microphones.
         count: usize,
     },
     /// Fewer than two rotors, or more than can be labelled.
-    #[error("number of rotors: {count}; only 2 to {LABELLED_ROTORS_MAX} rotors can be named")]
+    #[error("the number of rotors is {count}, but only 2 to {LABELLED_ROTORS_MAX} rotors can be named")]
     WrongRotorCount {
         /// Number of rotors.
         count: usize,
     },
     /// A coordinate that is not finite or larger than 1000 m.
-    #[error("{what} {number} has a position that is not within 1000 m")]
+    #[error("the position of {what} {number} is more than 1000 m from the origin, or is no number")]
     BadPosition {
         /// "microphone" or "rotor".
         what: &'static str,

@@ -70,7 +70,8 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
     }
     if !(low..=high).contains(&rev_s) {
         let how = if rev_s < low { "slow" } else { "fast" };
-        against.push(format!("too {how}: a rotor turns at {low:.0} to {high:.0} rev/s"));
+        let rotor = if known.shaft_speed.is_some() { "the rotors of this vehicle turn" } else { "a rotor turns" };
+        against.push(format!("too {how}: {rotor} at {low:.0} to {high:.0} rev/s"));
     }
     if let Some(diameter_m) = known.diameter_m {
         let mach = PI * diameter_m * rev_s / config.sound_speed_m_s;

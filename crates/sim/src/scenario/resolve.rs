@@ -52,7 +52,8 @@ impl ScenarioFile {
         }
         let steps_per_row = 1.0 / (self.truth_rate_hz * flight.step_s);
         if !(steps_per_row.round() >= 1.0 && (steps_per_row - steps_per_row.round()).abs() < 1e-6 * steps_per_row) {
-            let must_be = "a divisor of the steps per second, with steps of 1 ms one of 1000, 500, 250, 200, 100, 50 …";
+            let must_be =
+                "a divisor of the number of steps in a second: with steps of 1 ms, 1000, 500, 250, 200 or 100";
             return Err(ScenarioError::out_of_range("truth_rate_hz", self.truth_rate_hz, must_be));
         }
         let sound = self.sound_of(&flight)?;
@@ -131,7 +132,7 @@ impl ScenarioFile {
         };
         if !self.pilot.holds_place && self.maneuvers.iter().any(|maneuver| needs_pilot(&maneuver)) {
             return Err(ScenarioError::Contradiction {
-                what: "the maneuvers name places, and with holds_place = false the vehicle does not fly to them"
+                what: "a maneuver flies to a place, but with holds_place = false the vehicle flies to no place"
                     .to_owned(),
                 hint: "leave holds_place out, or use only hover, step, doublet and csv",
             });
@@ -200,7 +201,7 @@ impl ScenarioFile {
         match (self.room, self.ground) {
             (Some(_), Some(_)) => Err(ScenarioError::Contradiction {
                 what: "there are both a [room] and a [ground]".to_owned(),
-                hint: "a room has its own floor: keep one of the two",
+                hint: "a room has its own floor: remove [ground] or [room]",
             }),
             (None, None) => Ok(Surroundings::FreeField),
             (None, Some(ground)) => Ok(Surroundings::Ground { absorption: ground.absorption }),
@@ -270,7 +271,7 @@ fn gusts_of(section: &GustSection, height_m: f64) -> Result<Gusts, ScenarioError
             hint: "keep wind_at_6_m_m_s alone, or std_m_s, length_m and airspeed_m_s",
         }),
         (None, _) => Err(ScenarioError::Missing {
-            what: "how strong the gusts are".to_owned(),
+            what: "the strength of the gusts".to_owned(),
             hint: "write wind_at_6_m_m_s under [gusts], or all of std_m_s, length_m and airspeed_m_s",
         }),
     }

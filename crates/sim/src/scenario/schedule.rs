@@ -103,8 +103,8 @@ impl Layout {
         let flies = self.motors_on || matches!(maneuver, Maneuver::Hover { .. } | Maneuver::TakeOff { .. });
         if !flies {
             return Err(ScenarioError::Contradiction {
-                what: "a maneuver is flown while the vehicle stands on the ground".to_owned(),
-                hint: "put { kind = \"take_off\" } before it",
+                what: "a maneuver needs a flying vehicle, but the vehicle stands on the ground".to_owned(),
+                hint: "write a [[maneuver]] with kind = \"take_off\" before it",
             });
         }
         match maneuver {
@@ -146,8 +146,9 @@ impl Layout {
             Maneuver::TakeOff { height_m, duration_s } => {
                 if self.motors_on {
                     return Err(ScenarioError::Contradiction {
-                        what: "a take_off is planned while the vehicle already flies".to_owned(),
-                        hint: "write starts_on_ground = true under [flight], or take the maneuver out",
+                        what: "a take_off needs a vehicle on the ground, but the vehicle already flies".to_owned(),
+                        hint: "for a flight from the ground, write starts_on_ground = true under [flight]; before a second take_off, write \
+                               a land; or remove the take_off",
                     });
                 }
                 self.motors_on = true;

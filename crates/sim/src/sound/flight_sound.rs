@@ -167,8 +167,8 @@ impl FlightSound {
             for microphone in &self.settings.microphones {
                 let distance_m = norm(difference(rotor.position_m, microphone.position_m));
                 if distance_m > DISTANCE_M_MAX {
-                    let must_be = "within 1000 m of every microphone";
-                    return Err(QuantityError { name: "rotor position_m", value: distance_m, must_be });
+                    let name = "the distance of a rotor from a microphone in m";
+                    return Err(QuantityError { name, value: distance_m.round(), must_be: "at most 1000" });
                 }
             }
         }
@@ -189,8 +189,8 @@ impl FlightSound {
             let moved_m = norm(difference(after.position_m, before.position_m));
             let mach = moved_m / (step / self.sample_rate_hz) / self.settings.speed_of_sound_m_s;
             if mach > MACH_MAX {
-                let must_be = "at most half the speed of sound";
-                return Err(QuantityError { name: "Mach number of a rotor's motion", value: mach, must_be });
+                let name = "the speed of the vehicle as a Mach number";
+                return Err(QuantityError { name, value: mach, must_be: "at most 0.5" });
             }
         }
         Ok(())

@@ -53,7 +53,7 @@ impl Gravity {
 /// # Errors
 /// The number with its name.
 pub fn check_gravity(name: &'static str, m_s2: f64) -> Result<(), QuantityError> {
-    let must_be = "from 9.7 to 9.9: no place on Earth has another";
+    let must_be = "from 9.7 to 9.9, because no place on Earth has another gravity";
     if GRAVITY_M_S2.contains(&m_s2) { Ok(()) } else { Err(QuantityError { name, value: m_s2, must_be }) }
 }
 

@@ -1,0 +1,101 @@
+//! What a table's reader did with columns and rows, and what the user can do about it.
+
+use super::AT_REST_SHARE;
+use std::fmt;
+
+/// A note about columns that are not used, or about rows that were left out or turned round.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TableNote {
+    /// A thrust or a torque without a known unit.
+    UnitMissing {
+        /// Header of the column.
+        column: String,
+    },
+    /// Columns that could have been the speed or the force as well.
+    Rivals {
+        /// Headers of the columns that are not used.
+        columns: Vec<String>,
+        /// "speed" or "force".
+        what: &'static str,
+        /// Header of the column that is used in their place.
+        chosen: String,
+    },
+    /// Most thrusts are negative.
+    TurnedRound,
+    /// A row whose thrust has the other sign, or none.
+    AgainstTheOthers {
+        /// Line of the file, counted from 1.
+        line: u64,
+    },
+    /// Rows at rest.
+    AtRest {
+        /// Number of these rows.
+        count: usize,
+        /// Rows below this speed count as at rest.
+        speed_rpm: f64,
+    },
+}
+
+impl TableNote {
+    /// What to do about it; empty where the user needs to do nothing.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::UnitMissing { .. } => {
+                "if hovertone should use this column, write the unit into its name, as in thrust_g or torque_n_m"
+            }
+            Self::Rivals { columns, .. } if columns.len() == 1 => {
+                "if hovertone should use this column, remove the other column"
+            }
+            Self::Rivals { .. } => "if hovertone should use one of these columns, remove the others",
+            Self::TurnedRound | Self::AgainstTheOthers { .. } | Self::AtRest { .. } => "",
+        }
+    }
+}
+
+impl fmt::Display for TableNote {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnitMissing { column } => {
+                write!(f, "column \"{column}\" is not used: its name has no unit that hovertone knows")
+            }
+            Self::Rivals { columns, what, chosen } => {
+                let (noun, verb) = if columns.len() == 1 { ("column", "is") } else { ("columns", "are") };
+                let names: Vec<String> = columns.iter().map(|column| format!("\"{column}\"")).collect();
+                write!(f, "{noun} {} {verb} not used: the {what} comes from column \"{chosen}\"", names.join(", "))
+            }
+            Self::TurnedRound => f.write_str(
+                "the thrusts are negative, and are used as positive ones: a stand that is mounted the other \
+                 way shows the other sign",
+            ),
+            Self::AgainstTheOthers { line } => {
+                write!(f, "line {line} is left out: its thrust is zero, or has another sign than the others")
+            }
+            Self::AtRest { count, speed_rpm } => write!(
+                f,
+                "rows left out because they are slower than {speed_rpm:.0} rpm ({:.0} % of the fastest speed): {count}",
+                100.0 * AT_REST_SHARE
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_advice_names_as_many_columns_as_the_note() {
+        let rivals = |names: &[&str]| TableNote::Rivals {
+            columns: names.iter().map(|&name| name.to_owned()).collect(),
+            what: "speed",
+            chosen: "rpm".to_owned(),
+        };
+        assert!(rivals(&["a"]).hint().contains("this column"), "{}", rivals(&["a"]).hint());
+        let two = rivals(&["a", "b"]);
+        assert_eq!(two.to_string(), "columns \"a\", \"b\" are not used: the speed comes from column \"rpm\"");
+        assert!(two.hint().contains("one of these columns"), "{}", two.hint());
+        assert_eq!(TableNote::TurnedRound.hint(), "");
+    }
+}
