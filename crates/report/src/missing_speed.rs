@@ -45,43 +45,43 @@ impl SpeedRecord {
 
     /// What to do where several speeds explain the sound.
     fn why_ambiguous(&self) -> String {
-        let given = self.given_facts();
-        match () {
-            () if self.alternatives().len() == 1 => format!(
+        let blades = "count the blades, and give --blades N too";
+        if self.alternatives().len() == 1 {
+            return format!(
                 "the given facts leave one rotor speed only, and the sound does not show it clearly; check {}",
                 self.facts_to_check()
-            ),
-            () if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => {
-                let more = match self.has_thrust_coefficients() {
-                    true => String::new(),
-                    false => format!("; if that is not enough, give also {}", self.missing_facts()),
-                };
-                format!("{SEVERAL_SPEEDS}; count the blades, and give --blades N too{more}")
-            }
-            () if !self.are_blades_known() => format!(
-                "{SEVERAL_SPEEDS}; count the blades, and give --blades N too: the tone of the blades shows the speed"
-            ),
-            // a vehicle with a mass is in flight
-            () if !self.has_thrust_coefficients() && self.is_one_rotor() && !self.is_known("/known/mass_kg") => {
-                let band = if given.band { "a narrower --band" } else { "--band LOW:HIGH" };
-                format!(
-                    "{SEVERAL_SPEEDS}; check {}; on a bench, give the band around the tone of the blades with {band}; \
-                     in flight, give {}",
-                    in_list(&of_tone(given)),
-                    self.missing_facts()
-                )
-            }
-            () if !self.has_thrust_coefficients() => {
-                format!("{SEVERAL_SPEEDS}; check {}, and give {}", in_list(&of_tone(given)), self.missing_facts())
-            }
-            () => self.facts_that_do_not_fit().unwrap_or_else(|| {
+            );
+        }
+        if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) {
+            let more = match self.has_thrust_coefficients() {
+                true => String::new(),
+                false => format!("; if that is not enough, give also {}", self.missing_facts()),
+            };
+            return format!("{SEVERAL_SPEEDS}; {blades}{more}");
+        }
+        if !self.are_blades_known() {
+            return format!("{SEVERAL_SPEEDS}; {blades}: the tone of the blades shows the speed");
+        }
+        if self.has_thrust_coefficients() {
+            return self.facts_that_do_not_fit().unwrap_or_else(|| {
                 format!(
                     "{SEVERAL_SPEEDS}, and the vehicle could fly at more than one of them; check {}, or place the \
                      microphone nearer",
                     self.facts_to_check()
                 )
-            }),
+            });
         }
+        let (given, missing) = (self.given_facts(), self.missing_facts());
+        let of_tone = in_list(&of_tone(given));
+        // a vehicle with a mass is in flight
+        if self.is_one_rotor() && !self.is_known("/known/mass_kg") {
+            let band = if given.band { "a narrower --band" } else { "--band LOW:HIGH" };
+            return format!(
+                "{SEVERAL_SPEEDS}; check {of_tone}; on a bench, give the band around the tone of the blades with {band}; \
+                 in flight, give {missing}"
+            );
+        }
+        format!("{SEVERAL_SPEEDS}; check {of_tone}, and give {missing}")
     }
 
     /// That the given facts exclude a speed that the sound does not, and what to check: either may be wrong.
@@ -107,7 +107,7 @@ impl SpeedRecord {
         facts.extend(given.diameter.then_some(DIAMETER));
         facts.extend(given.mass.then_some(MASS));
         facts.extend((!given.vehicle && self.is_known("/known/rotor_count")).then_some(ROTORS));
-        if facts.is_empty() { "the given facts".to_owned() } else { in_list(&facts) }
+        in_list(&facts)
     }
 
     /// That no gear mesh is heard, where that is the tone to follow and nothing else sounds like a rotor.
@@ -157,15 +157,16 @@ fn of_tone(given: GivenFacts) -> Vec<&'static str> {
     let facts = [
         (given.vehicle, "the vehicle (--vehicle)"),
         (given.gear, "the gear (--gear)"),
+        (given.order, "the order of the tone (--order)"),
         (given.blades, "the number of blades (--blades)"),
     ];
     facts.into_iter().filter_map(|(is_given, words)| is_given.then_some(words)).collect()
 }
 
-/// "the mass, the diameter and the number of rotors".
+/// "the mass, the diameter and the number of rotors"; "the given facts" for none.
 fn in_list(facts: &[&str]) -> String {
     match facts.split_last() {
-        None => String::new(),
+        None => "the given facts".to_owned(),
         Some((only, [])) => (*only).to_owned(),
         Some((last, others)) => format!("{} and {last}", others.join(", ")),
     }
