@@ -91,6 +91,12 @@ fn missing_beside(words: &[OsString], arguments: &[String]) -> Option<String> {
     })
 }
 
+/// The argument whose example helps where this one is missing.
+pub(crate) fn argument_of_example<'a>(words: &[OsString], argument: &'a str) -> &'a str {
+    let is_draft = argument == "<EXPERIMENT.toml>" && OF_DRAFT.iter().any(|flag| is_typed(words, flag));
+    if is_draft { "--mass" } else { argument }
+}
+
 /// "speed needs at least one recording", of the missing arguments as the parser names them.
 pub(crate) fn missing_in_words(words: &[OsString], arguments: &[String]) -> String {
     if let Some(beside) = missing_beside(words, arguments) {

@@ -4,7 +4,7 @@ use crate::args::Arguments;
 use crate::conflicts::{advice, conflict_in_words, place_in_experiment};
 use crate::failure::Failure;
 use crate::meant::{DECIMAL_SIGN, flag_meant, number_meant, place_meant, results_meant, with_point};
-use crate::missing::missing_in_words;
+use crate::missing::{argument_of_example, missing_in_words};
 use crate::nearest::nearest;
 use crate::see_help::{example_and_help, is_typed, typed_command};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -40,7 +40,18 @@ pub(crate) fn failure_of(error: &clap::Error, words: &[OsString]) -> Option<Fail
     }
     let Misuse { what, hint } = Misuse::of(error, words);
     let name = error.get(ContextKind::InvalidArg).map(all_words).unwrap_or_default();
-    Some(Failure::usage(what, hint.unwrap_or_else(|| example_and_help(words, &flag_of(&name)))))
+    let help = || {
+        let example = example_and_help(words, argument_of_example(words, &flag_of(&name)));
+        if is_two_words(words) { format!("{COMPARE_ARCHIVES}; {example}") } else { example }
+    };
+    Some(Failure::usage(what, hint.unwrap_or_else(help)))
+}
+
+const COMPARE_ARCHIVES: &str = "to compare two archives, run `hovertone batch-compare OUT1 OUT2`";
+
+/// Whether `batch-compare` was typed as two words.
+fn is_two_words(words: &[OsString]) -> bool {
+    words.get(1).is_some_and(|word| word == "batch") && words.get(2).is_some_and(|word| word == "compare")
 }
 
 struct Misuse {
@@ -312,6 +323,14 @@ mod tests {
             (
                 "hovertone speed",
                 "speed needs at least one recording (for example `hovertone speed --blades 2 hover.mp4`; see",
+            ),
+            (
+                "hovertone batch compare a b",
+                "batch needs a folder for the results (-o OUT) (to compare two archives, run `hovertone batch-compare OUT1 OUT2`; for example",
+            ),
+            (
+                "hovertone identify --vehicle ardrone",
+                "--vehicle needs masses and recordings too (--mass KG=FILES) (for example `hovertone identify --mass ",
             ),
             (
                 "hovertone weigh a.wav",

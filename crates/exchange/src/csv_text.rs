@@ -40,7 +40,7 @@ impl CsvError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::NoTable(what) => what.hint(),
-            Self::NotCsv(_) => NoTable::Empty.hint(),
+            Self::NotCsv(_) => NoTable::Json.hint(),
             Self::RaggedRow { cells, columns, .. } if cells > columns => {
                 "correct or remove the row; if the decimal sign is a comma, separate the cells by semicolons: 3,5 is \
                  read as two cells"

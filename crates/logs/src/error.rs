@@ -169,12 +169,12 @@ impl LogError {
                 "let Betaflight log motors, gyro or, with bidirectional DShot, RPM (blackbox)"
             }
             Self::OtherVersion { .. } => "export the log as CSV with its own program (blackbox_decode)",
-            Self::NoTable(NoTable::Empty | NoTable::Json) => {
+            Self::NoTable(NoTable::Json) => {
                 "give a log: PX4's .ulg, ArduPilot's .bin, Betaflight's .bbl, or a CSV file whose first line names the \
                  columns"
             }
             Self::NoTable(what) => what.hint(),
-            Self::NotCsv(_) => NoTable::Empty.hint(),
+            Self::NotCsv(_) => NoTable::Json.hint(),
             Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
                 "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum NoTable {
     /// Nothing in it.
-    #[error("this file is empty, so it holds no table")]
+    #[error("this file is empty")]
     Empty,
     /// JSON.
     #[error("this file is JSON and no table")]
@@ -22,7 +22,8 @@ impl NoTable {
     /// Advice to the user.
     pub fn hint(self) -> &'static str {
         match self {
-            Self::Empty | Self::Json => "give a CSV file whose first line names the columns",
+            Self::Empty => "copy or download the file again, or give another one",
+            Self::Json => "give a CSV file whose first line names the columns",
             Self::NoHeader => {
                 "write a first line with a name for each column: for `hovertone fit` as in speed_rpm,thrust_g; for a log as in time_s,rotor1_rpm"
             }

@@ -134,7 +134,7 @@ fn why_one_law(range: Option<LoadRange>) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "rows differ from the law by {:.2} % of the largest force (rms); if the law holds, the chance of such differences is {} (χ² = {}, \
+            "the forces differ from the law by {:.2} % of the largest force (rms); if the law holds, the chance of such differences is {} (χ² = {}, \
             {} degree{} of freedom)\n",
             100.0 * fit.residual_rms_share,
             p_value_text(agreement.p_value),
@@ -143,7 +143,10 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
         ),
         None if fit.points.len() > 1 => {
-            format!("rows differ from the law by {:.2} % of the largest force (rms)\n", 100.0 * fit.residual_rms_share)
+            format!(
+                "the forces differ from the law by {:.2} % of the largest force (rms)\n",
+                100.0 * fit.residual_rms_share
+            )
         }
         None => String::new(),
     }

@@ -14,9 +14,9 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
     let mut table = TextTable::new(vec![
         Column::words("lines against the blade pass"),
         Column::numbers("once per turn", "dB"),
-        Column::numbers("loudest between", "dB"),
-        Column::numbers("its order", ""),
-        Column::numbers("harmonics missing", ""),
+        Column::numbers("loudest other line", "dB"),
+        Column::numbers("order of this line", ""),
+        Column::numbers("missing harmonics", ""),
     ]);
     let wanted = || records.iter().filter(|record| record.wants_condition && record.speed().is_some());
     wanted().next()?;

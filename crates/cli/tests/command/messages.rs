@@ -291,7 +291,7 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
     let scenario = write("s.toml", b"duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n");
     for (arguments, code, said) in [
         (vec!["fit", &json], 1, "this file is JSON and no table"),
-        (vec!["fit", &empty], 1, "this file is empty, so it holds no table"),
+        (vec!["fit", &empty], 1, "this file is empty (hint: copy or download"),
         (vec!["fit", &experiment], 1, "this file is TOML and no table (hint: give a CSV file"),
         (vec!["log", &scenario], 1, "this file is TOML and no table (hint: give a CSV file"),
         (vec!["identify", &json], 1, "this file is JSON, so it cannot be the experiment file"),

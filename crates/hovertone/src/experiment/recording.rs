@@ -33,6 +33,11 @@ impl RecordingSection {
         }
     }
 
+    /// Whether the name of the recording or of its log has no letter.
+    pub(crate) fn has_empty_name(&self) -> bool {
+        [Some(self.file()), self.log()].into_iter().flatten().any(|name| name.trim().is_empty())
+    }
+
     /// Name of the log.
     pub fn log(&self) -> Option<&str> {
         match self {

@@ -1,7 +1,7 @@
 //! From the experiment file to a resolved experiment: preset and own numbers, gravity, the order of the tone, the force of each load.
 
 use super::limits::{check_hovers, check_model, missing, not_negative, positive};
-use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
+use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, RecordingSection};
 use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel, check_gravity, check_latitude};
@@ -237,6 +237,12 @@ impl ExperimentFile {
         }
         if load.recordings.is_empty() {
             return Err(missing(&named("a recording"), "name at least one file or pattern in recordings = [...]"));
+        }
+        if load.recordings.iter().any(RecordingSection::has_empty_name) {
+            return Err(missing(
+                &named("the name of a file"),
+                "write a name between the quotation marks, or remove them",
+            ));
         }
         for (field, time_s) in [("from_s", load.from_s), ("to_s", load.to_s)] {
             not_negative(&named(field), time_s.unwrap_or(0.0))?;

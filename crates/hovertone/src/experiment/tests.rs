@@ -136,6 +136,8 @@ fn what_means_nothing_is_refused_by_name() {
         ("added_mass_kg = 0.031", "from_s = 5.0\nto_s = 4.0", "later to_s"),
         ("latitude_deg = -20.76", "latitude_deg = 0.0\ngear = { pinion = 69, wheel = 8 }", "swapped"),
         ("[\"small_hull/*.mov\"]", "[]", "recordings"),
+        ("[\"small_hull/*.mov\"]", "[\"\"]", "the name of a file of load"),
+        ("[\"small_hull/*.mov\"]", "[{ file = \"a.wav\", log = \" \" }]", "the name of a file of load"),
         ("latitude_deg = -20.76", "latitude_deg = 0.0\nblades = 3", "blades = 3"),
         ("latitude_deg = -20.76", "latitude_deg = 0.0\ngear = { pinion = 8, wheel = 68 }", "gear = 8:68"),
         ("latitude_deg = -20.76", "latitude_deg = 0.0\nrotors = 6", "rotors = 6"),
