@@ -161,7 +161,7 @@ impl RotorTracks {
         let unknown_rev_s =
             if self.would_hear_faint() { unknown_rotor_rev_s } else { UNKNOWN_SPREAD_SHARE * mean_rev_s };
         let of_unresolved = (count - resolved).max(0.0).sqrt() / count * unknown_rev_s;
-        let of_others = self.another_share() * SQRT_2 / (count + 2.0) * unknown_rotor_rev_s;
+        let of_others = self.another_share() * SQRT_2 / (count + 2.0) * unknown_rev_s;
         let rotors_std_share = of_unresolved.hypot(of_others).hypot(self.bobbing_std_rev_s()) / mean_rev_s;
         let (_, first, _) = heard.into_iter().next()?;
         let speed = SpeedEstimate {
