@@ -34,8 +34,8 @@ impl GivenFacts {
             (self.vehicle, "the vehicle"),
             (self.blades, "the blades"),
             // --gear and --order say the same
-            (self.gear, "the gear (the order of the tone)"),
-            (self.order, "the order of the tone"),
+            (self.gear, "the gear (--gear or --order)"),
+            (self.order, "the number of --order"),
             (self.diameter, "the diameter"),
             (self.mass, "the mass"),
             (self.band, "the band"),
@@ -62,11 +62,11 @@ impl GivenFacts {
             (true, true, true) => "the vehicle, the blades and the gear",
             (true, true, false) => "the vehicle and the blades",
             (true, false, true) => "the vehicle and the gear",
-            (true, ..) if self.order => "the vehicle and the order of the tone",
+            (true, ..) if self.order => "the vehicle and the number of --order",
             (true, ..) => "the vehicle",
             (false, true, true) => "the blades and the gear",
             (false, false, true) => "the gear",
-            (false, ..) if self.order => "the order of the tone (blades or gear)",
+            (false, ..) if self.order => "the number of --order",
             (false, ..) => "the number of blades",
         };
         let of_tone_or_vehicle =
@@ -128,13 +128,13 @@ mod tests {
             band: true,
             window: true,
         };
-        let named = "the vehicle, the blades, the gear (the order of the tone), the diameter, the mass and the band";
+        let named = "the vehicle, the blades, the gear (--gear or --order), the diameter, the mass and the band";
         assert_eq!(all.in_words("and"), named);
         let of_vehicle = GivenFacts { vehicle: true, band: true, ..nothing };
         assert_eq!(of_vehicle.in_words("and"), "the vehicle and the band");
         let alone = GivenFacts { blades: true, mass: true, band: true, ..nothing };
         assert_eq!(alone.in_words("or"), "the blades, the mass or the band");
-        assert_eq!(all.replaced_by_blades(), "the vehicle, the gear (the order of the tone) and the band");
+        assert_eq!(all.replaced_by_blades(), "the vehicle, the gear (--gear or --order) and the band");
         assert_eq!(of_vehicle.replaced_by_blades(), "the vehicle and the band");
         assert_eq!(alone.replaced_by_blades(), "the band");
         assert_eq!(GivenFacts { blades: true, ..nothing }.replaced_by_blades(), "the blades");
@@ -153,8 +153,8 @@ mod tests {
         let geared = GivenFacts { blades: true, gear: true, ..nothing };
         assert!(hints(geared).iter().all(|hint| hint.contains("check the blades and the gear")), "{:?}", hints(geared));
         let by_order = GivenFacts { order: true, ..nothing };
-        assert_eq!(by_order.in_words("and"), "the order of the tone");
-        assert!(hints(by_order).iter().all(|hint| hint.contains("(blades or gear)")), "{:?}", hints(by_order));
+        assert_eq!(by_order.in_words("and"), "the number of --order");
+        assert!(hints(by_order).iter().all(|hint| hint.contains("the number of --order")), "{:?}", hints(by_order));
         let vehicle = GivenFacts { vehicle: true, ..nothing };
         assert!(hints(vehicle).iter().all(|hint| hint.contains("check the vehicle")), "{:?}", hints(vehicle));
         let own_blades = GivenFacts { blades: true, ..vehicle };

@@ -179,7 +179,7 @@ mod tests {
         let instead = Some(OtherRotor { blades: 2, speed_rev_s: 60.2 });
         let geared = GivenFacts { blades: true, gear: true, ..GivenFacts::default() };
         let told = NoTone::NoSeries { only_rev_s: None, instead }.in_words(geared);
-        assert!(told.contains("give --blades 2 alone, in place of the gear (the order of the tone); if not"), "{told}");
+        assert!(told.contains("give --blades 2 alone, in place of the gear (--gear or --order); if not"), "{told}");
         let by_blades = NoTone::NoSeries { only_rev_s: None, instead }.in_words(GivenFacts { gear: false, ..geared });
         assert!(
             by_blades.contains("if your rotor has 2 blades, give --blades 2; if not, check the blades"),
@@ -203,7 +203,7 @@ mod tests {
         let bladed = GivenFacts { blades: true, ..GivenFacts::default() };
         assert_eq!(in_place(bladed), "give --blades 2");
         let geared = GivenFacts { gear: true, ..bladed };
-        assert_eq!(in_place(geared), "give --blades 2 alone, in place of the gear (the order of the tone)");
+        assert_eq!(in_place(geared), "give --blades 2 alone, in place of the gear (--gear or --order)");
         let nothing = NoTone::NoSeries { only_rev_s: Some((13.0, 120.0)), instead: None }.to_string();
         assert!(nothing.contains("check the given facts, or move the microphone nearer"), "{nothing}");
     }

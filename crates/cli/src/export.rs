@@ -7,10 +7,11 @@ use crate::inputs::{is_stdin, read_text};
 use crate::model_file::{model_failure, model_hint};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
+use crate::unused_facts::{Unused, no_place_in, say_unused};
 use hovertone::thrust::ThrustCoefficients;
 use hovertone_exchange::{
-    ChangedLine, IdentifiedRotor, ModelError, ResultsError, SimulatorFormat, export_text, identified_from_results,
-    model_from_text, updated_model,
+    ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
+    updated_model,
 };
 use hovertone_report::{Notice, fixed, printable};
 use hovertone_vehicle::{check_diameter, check_positive, check_range};
@@ -65,116 +66,6 @@ pub(crate) fn ending_of(rotor: &IdentifiedRotor) -> Ending {
     if rotor.forbids_use { Ending::Incomplete } else { Ending::Done }
 }
 
-/// A fact that a flag gives.
-struct Given {
-    flag: &'static str,
-    value: f64,
-    fact: Fact,
-}
-
-impl Given {
-    /// Whether the text of a format is another without this fact.
-    fn is_in(&self, format: SimulatorFormat, rotor: &IdentifiedRotor) -> bool {
-        let text_with = |value: Option<f64>| {
-            let mut other = rotor.clone();
-            *(self.fact)(&mut other) = value;
-            export_text(&other, format).ok()
-        };
-        text_with(Some(self.value)).is_some_and(|text| text_with(None).is_none_or(|without| without != text))
-    }
-}
-
-/// Why a given fact changes nothing.
-struct Unused<'a> {
-    /// Where the text has no place for it.
-    without_place: &'a dyn Fn(&Given) -> Notice,
-    /// Where the text has this very number already.
-    same: Notice,
-}
-
-/// Names the given facts without which the text that is made of the rotor is the same. Another value tells whether the text has a place for it.
-fn say_unused(
-    rotor: &IdentifiedRotor,
-    arguments: &ExportArguments,
-    why: &Unused<'_>,
-    text_of: impl Fn(&IdentifiedRotor) -> Result<String, ModelError>,
-    terminal: &mut Terminal,
-) {
-    let Ok(text) = text_of(rotor) else { return };
-    for (flag, given, fact) in [
-        ("--torque-constant-n-m-s2", arguments.torque_constant_n_m_s2, torque_of as Fact),
-        ("--hover-command", arguments.hover_command, command_of),
-        ("--diameter-m", arguments.diameter_m, diameter_of),
-        ("--air-density-kg-m3", arguments.air_density_kg_m3, density_of),
-    ] {
-        let Some(value) = given else { continue };
-        let is_same_with = |value: Option<f64>| {
-            let mut other = rotor.clone();
-            *fact(&mut other) = value;
-            text_of(&other).is_ok_and(|other| other == text)
-        };
-        if is_same_with(None) {
-            let why = match is_same_with(Some(0.5 * value)) {
-                true => (why.without_place)(&Given { flag, value, fact }),
-                false => why.same.clone(),
-            };
-            terminal.warning(&Notice::new(format!("{flag} changes nothing: {}", why.text), &why.hint), "");
-        }
-    }
-}
-
-/// A fact of a rotor, to be changed.
-type Fact = fn(&mut IdentifiedRotor) -> &mut Option<f64>;
-
-fn torque_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
-    &mut rotor.torque_constant_n_m_s2
-}
-
-fn command_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
-    &mut rotor.hover_command
-}
-
-fn diameter_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
-    &mut rotor.propeller_diameter_m
-}
-
-fn density_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
-    &mut rotor.air_density_kg_m3
-}
-
-/// Why a fact is not in the text of a format: C_T needs another fact too, or only other formats have a number for it.
-fn no_place_in(format: SimulatorFormat, given: &Given, rotor: &IdentifiedRotor) -> Notice {
-    let partner = match given.flag {
-        "--diameter-m" => Some(("--air-density-kg-m3", "the density of the air", density_of as Fact)),
-        "--air-density-kg-m3" => Some(("--diameter-m", "the diameter of the propellers", diameter_of as Fact)),
-        _ => None,
-    };
-    if let Some((flag, name, fact)) = partner {
-        let mut complete = rotor.clone();
-        fact(&mut complete).get_or_insert(1.0);
-        if given.is_in(format, &complete) {
-            let text = format!("the thrust coefficient C_T needs {name} too");
-            return Notice::new(text, format!("give {flag} too, or leave {} out", given.flag));
-        }
-    }
-    if given.flag == "--hover-command" && rotor.mass_kg.is_none() {
-        return Notice::new(
-            "the thrust in a hover needs the mass, and these results have no mass",
-            "leave the flag out",
-        );
-    }
-    let all = SimulatorFormat::ALL.into_iter().filter(|format| given.is_in(*format, rotor));
-    let names: Vec<&str> = all.map(SimulatorFormat::name).collect();
-    let hint = match names.split_last() {
-        None => "leave the flag out".to_owned(),
-        Some((only, [])) => format!("leave the flag out, or give --to {only}: this format has a number for it"),
-        Some((last, others)) => {
-            format!("leave the flag out, or choose a format with a number for it: --to {} or {last}", others.join(", "))
-        }
-    };
-    Notice::new(format!("the format {} has no number for it", format.name()), hint)
-}
-
 /// Changes the numbers of a model: in place, which is what was asked for, or into another file. Prints the difference.
 fn change(
     model: &Path,
@@ -210,6 +101,7 @@ fn change(
     if updated.changes.is_empty() && arguments.output.is_none() {
         terminal
             .say(&format!("nothing to change: {} has this constant already", printable(&model.display().to_string())));
+        say_other_mass(before.mass_kg, rotor.mass_kg, terminal);
         return Ok(Ending::Done);
     }
     match &arguments.output {
@@ -230,8 +122,14 @@ fn change(
         let hint = "check that the results and the model belong to the same vehicle, and that the units are right";
         terminal.warning(&Notice::new(text, hint), "");
     }
+    say_other_mass(before.mass_kg, rotor.mass_kg, terminal);
+    Ok(Ending::Done)
+}
+
+/// Says that the vehicle of the model has another mass: `--into` does not change it.
+fn say_other_mass(of_model_kg: Option<f64>, of_results_kg: Option<f64>, terminal: &mut Terminal) {
     if let Some((theirs_kg, heard_kg)) =
-        before.mass_kg.zip(rotor.mass_kg).filter(|(theirs, heard)| !are_alike(*theirs, *heard))
+        of_model_kg.zip(of_results_kg).filter(|(theirs, heard)| !are_alike(*theirs, *heard))
     {
         let text = format!(
             "the vehicle weighs {theirs_kg} kg in the model, but {heard_kg} kg in the results: in the simulator, its \
@@ -242,7 +140,6 @@ fn change(
             "",
         );
     }
-    Ok(Ending::Done)
 }
 
 /// That comments still have the old number; `None` without such lines.

@@ -128,7 +128,7 @@ fn mass_of_load(error: &toml::de::Error, text: &str) -> Option<String> {
 
 /// What a file is instead, and its command: an experiment has loads, a scenario has manoeuvres.
 fn other_kind(file: &TomlFile<'_>) -> Option<(&'static str, &'static str)> {
-    let has = |section: &str| file.text.lines().any(|line| line.trim() == section);
+    let has = |section: &str| file.text.lines().any(|line| line.trim().starts_with(section));
     match file.kind {
         "experiment file" if has("[[maneuver]]") => Some(("a scenario file", "give it to `hovertone simulate`")),
         "experiment file" => None,

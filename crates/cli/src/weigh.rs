@@ -1,26 +1,27 @@
 //! `hovertone weigh`: the mass of a hovering vehicle from its sound.
 
-use crate::args::{ToneArguments, WeighArguments};
+use crate::args::WeighArguments;
 use crate::copies::refuse_copies;
 use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
-use crate::foreign_speed::{advise_by_constant, foreign_speed, given};
+use crate::foreign_speed::{advise_by_constant, foreign_speed};
 use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::scale_uncertainty::check_stds;
-use crate::settings::{span_of, tone_of};
+use crate::settings::span_of;
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
+use crate::weighed_tone::{tone_of_constant_in_words, tone_to_hear};
 use crate::wording::IN_HOVER;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighError, WeighedHover};
-use hovertone_exchange::{HeardTone, IdentifiedRotor};
+use hovertone_exchange::IdentifiedRotor;
 use hovertone_report::{Notice, NoticeKind, SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
-    BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, Vehicle,
-    check_not_negative, check_positive, number_in_words,
+    Ending as EstimateEnding, Estimate, KnownRotor, RotorSpeed, SaidOfVehicle, Vehicle, check_not_negative,
+    check_positive, number_in_words,
 };
 use std::ops::RangeInclusive;
 
@@ -57,6 +58,9 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let plan = resolve(arguments, results.as_ref())?;
     if let Some((rotor, path)) = results.as_ref().zip(arguments.constant.as_deref()) {
         say_doubts(rotor, path, terminal);
+    }
+    if let Some(notice) = tone_of_constant_in_words(&arguments.tone, results.as_ref())? {
+        terminal.tip(&notice);
     }
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
     refuse_copies(&mut jobs, "give each recording once", None)?;
@@ -347,51 +351,4 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
         value.map_or(Ok(()), |value| check_not_negative(name, value))?;
     }
     Ok(())
-}
-
-/// The tone of the arguments, else the tone behind the results with the same settings.
-fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<ToneConfig, Failure> {
-    let heard = results.and_then(|rotor| rotor.tone);
-    if let Some(tone) = tone_of(&arguments.tone)? {
-        if let Some(heard) = heard.filter(|_| arguments.tone.vehicle.is_none()) {
-            check_order(tone.order, &heard, &arguments.tone)?;
-        }
-        return Ok(tone);
-    }
-    let heard = heard.ok_or_else(|| {
-        let hint = match &arguments.tone.vehicle {
-            Some(_) => "count the blades of the vehicle, and give --blades N too",
-            None => "give --vehicle NAME, --blades N, --gear P:W or --order X",
-        };
-        Failure::usage("the tone of the rotor is not known", hint)
-    })?;
-    let order = Order::new(heard.order)?;
-    let tone = ToneConfig {
-        harmonics: arguments.tone.harmonics.unwrap_or(heard.harmonics),
-        blades: heard.blades,
-        band_hz: arguments.tone.band,
-        band_half_width_share: heard.band_half_width_share,
-        speed_min: RotorSpeed::from_rad_s(heard.speed_rad_s_min),
-        speed_max: RotorSpeed::from_rad_s(heard.speed_rad_s_max),
-        ..ToneConfig::of_order(order)
-    };
-    tone.check_band()?;
-    Ok(tone)
-}
-
-/// Refuses an order that is neither that of the tone behind the constant nor that of the blade pass.
-fn check_order(said: Order, heard: &HeardTone, typed: &ToneArguments) -> Result<(), Failure> {
-    let lines = said.lines_per_turn();
-    let may_be_blades = |lines: f64| heard.order > BLADES_MAX && lines <= BLADES_MAX && lines.fract() == 0.0;
-    let is_blade_pass = heard.blades.map_or(may_be_blades(lines), |blades| lines == f64::from(blades));
-    if lines == heard.order || is_blade_pass {
-        return Ok(());
-    }
-    let flags: Vec<&str> = given(typed).into_iter().filter(|flag| *flag != "--band").collect();
-    let flags = flags.join(" and ");
-    let what = format!(
-        "the constant was measured with the tone of order {} (lines per turn), but by {flags} the order is {said}",
-        heard.order
-    );
-    Err(Failure::usage(what, format!("leave {flags} out: the results already have the order")))
 }

@@ -163,7 +163,7 @@ impl LogError {
                 "let PX4 log esc_status, actuator_motors, actuator_outputs or vehicle_angular_velocity (SDLOG_PROFILE)"
             }
             Self::WithoutSignal { format: LogFormat::DataFlash, .. } => {
-                "let ArduPilot log ESC, RCOU or IMU (LOG_BITMASK); ESC needs ESC telemetry"
+                "let ArduPilot log the message ESC (speeds, from ESC telemetry), RCOU (motor commands) or IMU (body rates): LOG_BITMASK chooses"
             }
             Self::WithoutSignal { .. } => {
                 "let Betaflight log motors, gyro or, with bidirectional DShot, RPM (blackbox)"

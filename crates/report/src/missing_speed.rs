@@ -157,7 +157,7 @@ fn of_tone(given: GivenFacts) -> Vec<&'static str> {
     let facts = [
         (given.vehicle, "the vehicle (--vehicle)"),
         (given.gear, "the gear (--gear)"),
-        (given.order, "the order of the tone (--order)"),
+        (given.order, "the number of --order"),
         (given.blades, "the number of blades (--blades)"),
     ];
     facts.into_iter().filter_map(|(is_given, words)| is_given.then_some(words)).collect()

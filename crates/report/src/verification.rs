@@ -87,7 +87,7 @@ fn verdict_in_words(found: &Verification) -> String {
     // order and clock are judged apart from the ±
     let small = small_plus_minus(found).map_or(String::new(), |notice| format!("\n±: not passed; {}", notice.text));
     format!(
-        "passed: the order of the tone (blades or gear) and the clock are right; the mean of the heard speeds differs \
+        "passed: the number of blades (or the gear) and the clock are right; the mean of the heard speeds differs \
         from the log by {percent} %{small}"
     )
 }
@@ -131,7 +131,7 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
         )),
         None => Some(Notice::new(
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
-            "check the number of blades or the gear (the order of the tone) and the clock of the recorder; check that \
+            "check the number of blades (or the gear) and the clock of the recorder; check that \
             the log is of this flight",
         )),
     }

@@ -3,6 +3,7 @@
 use super::{AMBIGUOUS, BAND_SHARE, HARDLY_HEARD, MILLION, OTHER_ROTOR, SEVERAL_ROTORS, band_around};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
+use crate::order_words::{times, times_per_turn};
 use crate::vehicles::preset;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
 use hovertone_report::{fixed, printable, signed, with_uncertainty};
@@ -157,7 +158,7 @@ fn result_in_words(comparison: &Comparison, clock_ppm: f64) -> String {
         (Judgement::Passes, _) => "",
         (Judgement::Undecided, _) => " (clock)",
         (Judgement::Fails, Relation::Agrees) => " (clock)",
-        (Judgement::Fails, _) if comparison.heard.is_rotor => " (order of the tone)",
+        (Judgement::Fails, _) if comparison.heard.is_rotor => " (blades or gear)",
         (Judgement::Fails, _) => " (tone)",
     };
     format!("result: {}{reason}\n", word(judgement))
@@ -194,13 +195,13 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     let last_digit = if is_near { ", and to the last digit" } else { "" };
     match check.relation {
         Relation::Agrees if !is_rotor => String::new(),
-        Relation::Agrees => format!("order (lines per turn): pass, it is {order}\n"),
+        Relation::Agrees => format!("blades or gear: pass, the tone sounds {}\n", times_per_turn(*order)),
         _ if let Some(slip) = comparison.slip(arguments) => {
-            format!("order (lines per turn): fail. The heard {what} is {ratio} times the known {what}. {slip}\n")
+            format!("blades or gear: fail. The heard {what} is {ratio} times the known {what}. {slip}\n")
         }
         Relation::OtherOrder(fitting) if *is_rotor => {
             format!(
-                "order (lines per turn): fail. The heard {what} is {ratio} times the known {what}. One of these three is wrong:\n"
+                "blades or gear: fail. The heard {what} is {ratio} times the known {what}. One of these three is wrong:\n"
             ) + &other_order_in_words(comparison, fitting, arguments)
         }
         _ if !is_rotor => format!(
@@ -209,7 +210,7 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
              resampled or slowed down.\n"
         ),
         _ => format!(
-            "order (lines per turn): fail. The heard {what} is {ratio} times the known {what}. No other order gives \
+            "blades or gear: fail. The heard {what} is {ratio} times the known {what}. No other number of blades and no gear gives \
              this ratio, and no clock is off by more than {CLOCK_PERCENT_MAX} %. Check the known {what}: was it read \
              during this recording{last_digit}? If the known {what} is right, another rotor was heard, or \
              the file was resampled or slowed down.\n"
@@ -235,9 +236,11 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
         String::new()
     };
     format!(
-        "{known}  the order, {order}: it may be {fitting}. If so, {without_vehicle}give --order {fitting}{as_blades}; \
-         in an experiment file, write order = {fitting} under [tone]\n  the tone that was heard: to hear only the \
-         tone at the known speed, give --band {}\n",
+        "{known}  the blades or the gear: the tone may sound {}, not {}. If so, {without_vehicle}give --order \
+         {fitting}{as_blades}; in an experiment file, write order = {fitting} under [tone]\n  the tone that was heard: \
+         to hear only the tone at the known speed, give --band {}\n",
+        times_per_turn(fitting),
+        times(order),
         comparison.band()
     )
 }

@@ -208,7 +208,7 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
     })?;
     let (order, rpm) = (record.order, record.speed()?.speed.rpm());
     let heard = format!(
-        "the tone of order {order} (lines per turn) is missing for {gap_percent:.0} % of the time, so this order cannot be checked"
+        "the tone at {order} times the rotor speed is missing for {gap_percent:.0} % of the time, so it cannot be checked"
     );
     Some(match blades {
         Some(blades) if f64::from(blades) == order.lines_per_turn() => {
@@ -219,7 +219,7 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
             format!(
                 "{heard}. The speed, {rpm:.0} rpm, comes from other tones, such as the blade pass (the tone of the \
                  blades). If the rotor has {number} blades and no gear, \
-                 give --blades {number} alone, in place of {}; if the order is right, move the microphone nearer",
+                 give --blades {number} alone, in place of {}; if there is a gear, move the microphone nearer",
                 record.given_facts().replaced_by_blades()
             )
         }

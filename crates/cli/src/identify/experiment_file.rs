@@ -6,6 +6,7 @@ use crate::files::{home_expanded, sha256_of_bytes};
 use crate::model_file::read_model;
 use crate::recording_files::groups_in;
 use crate::toml_file::TomlFile;
+use crate::typed::quoted;
 use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
 use hovertone::thrust::VehicleModel;
@@ -88,7 +89,7 @@ impl ExperimentSource {
 
 /// Whether a text is an experiment file, or an attempt at one.
 pub(crate) fn names_loads(text: &str) -> bool {
-    text.lines().any(|line| line.trim() == "[[load]]")
+    text.lines().any(|line| line.trim().starts_with("[[load]]"))
 }
 
 /// Refuses a folder, with what to give in its place: the experiment file in it, or its recordings with their mass.
@@ -103,8 +104,8 @@ fn refuse_folder(path: &Path) -> Result<(), Failure> {
         Some(file) => format!("name the file in it: {}", file.display()),
         None if groups_in(path).is_empty() => "give the experiment file; `hovertone init` writes one".to_owned(),
         None => format!(
-            "to hear the recordings in the folder, write their mass before the folder, as in --mass 413g={}",
-            path.display()
+            "to hear the recordings in the folder, write the mass of the vehicle before the folder, as in --mass {}",
+            quoted(&format!("413g={}", path.display()))
         ),
     };
     Err(Failure::failed("this is a folder, but an experiment file is needed", hint, path))

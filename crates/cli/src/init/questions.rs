@@ -92,7 +92,9 @@ fn ask_loads<R: BufRead, W: Write>(
     }
     loop {
         let (question, ends) = match loads.is_empty() {
-            true => ("\nRecordings with one mass, as a folder, a file or a pattern such as *.mov:", false),
+            true => {
+                ("\nRecordings of flights with the same mass, as a folder, a file or a pattern such as *.mov:", false)
+            }
             false => ("More recordings with one mass, as a folder, a file or a pattern [no more]:", true),
         };
         let names = dialog.ask(question, |answer| match answer {
@@ -139,6 +141,9 @@ fn names_of(typed: &str, folder: &Path) -> Result<Vec<String>, String> {
     match recordings_of(typed, folder) {
         names if !names.is_empty() => Ok(names),
         _ if folder.join(typed).is_dir() => Err(format!("{typed} is a folder without recordings.")),
+        _ if typed.contains(char::is_whitespace) => {
+            Err(format!("No file matches {typed}. Type one name or pattern at a time; more can follow."))
+        }
         _ => Err(format!("No file matches {typed}.")),
     }
 }

@@ -47,7 +47,7 @@ impl PlainLines {
         let words = [speeds.unwrap_or_default(), now];
         let words =
             words.iter().filter(|words| !words.is_empty()).map(String::as_str).collect::<Vec<_>>().join(separator);
-        let clipping = if speed.clipped_share > 0.0 { ", clipped" } else { "" };
+        let clipping = if speed.clipped_share > 0.0 { ", too loud" } else { "" };
         let head = if self.count == SPEEDS_PER_LINE { HEAD } else { "" };
         let level_db = fixed(speed.level_db, 1);
         let line = format!("{:8.1} s  {level_db:>7} dB{clipping}  {words}\n", speed.time_s);

@@ -27,7 +27,7 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     write_bench(&sound, 21_000.0, 400.0);
     let failed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(3);
     for words in [
-        "order (lines per turn): pass",
+        "blades or gear: pass",
         "clock: fail, it runs fast by",
         "\nresult: fail (clock)\n",
         "--clock-correction-ppm",
@@ -80,7 +80,7 @@ fn an_order_whose_tone_is_hardly_heard_does_not_pass() {
     // two blades without a gear; the blades of the vehicle give the right speed, and the mesh of its gear is not there
     let geared = with(&["--vehicle", "ardrone"]).ends_with(3);
     for words in [
-        "not decided: the tone of order 69 (lines per turn) is missing for ",
+        "not decided: the tone at 69 times the rotor speed is missing for ",
         "give --blades 2 alone, in place of the vehicle",
     ] {
         assert!(geared.stderr.contains(words), "{words}:\n{}", geared.stderr);
@@ -89,7 +89,7 @@ fn an_order_whose_tone_is_hardly_heard_does_not_pass() {
     let json = with(&["--vehicle", "ardrone", "--json"]).ends_with(3).json_lines().remove(0);
     assert_eq!((json["status"].as_str(), json["passes"].as_bool()), (Some("tone_hardly_heard"), None));
     let bladed = with(&["--blades", "2", "--band", "185:195"]).ends_with(0);
-    assert!(bladed.stdout.contains("order (lines per turn): pass, it is 2"), "{}", bladed.stdout);
+    assert!(bladed.stdout.contains("blades or gear: pass, the tone sounds 2 times per turn"), "{}", bladed.stdout);
 }
 
 #[test]
@@ -101,16 +101,16 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
         calibrated(&sound, &["--vehicle", "crazyflie"])
             .ends_with(0)
             .stdout
-            .contains("order (lines per turn): pass, it is 2")
+            .contains("blades or gear: pass, the tone sounds 2 times per turn")
     );
     let wrong = calibrated(&sound, &["--order", "1", "--band", "650:750"]).ends_with(3);
     for words in [
-        "order (lines per turn): fail",
-        "the order, 1: it may be 2. If so, give --order 2",
+        "blades or gear: fail",
+        "the tone may sound 2 times per turn of the rotor, not once. If so, give --order 2",
         "the known speed: a tachometer with a wrong number of blades in its settings shows a wrong speed. If this is so, give --tachometer-rpm 42000",
         "--order 2",
         "--band 341",
-        "\nresult: fail (order of the tone)\n",
+        "\nresult: fail (blades or gear)\n",
     ] {
         assert!(wrong.stdout.contains(words), "{words}:\n{}", wrong.stdout);
     }
@@ -127,7 +127,7 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     assert!(!slip.stdout.contains("clock"), "{}", slip.stdout);
     let other =
         hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "15000"]).ends_with(3);
-    assert!(other.stdout.contains("No other order gives this ratio"), "{}", other.stdout);
+    assert!(other.stdout.contains("No other number of blades and no gear gives this ratio"), "{}", other.stdout);
 }
 
 #[test]

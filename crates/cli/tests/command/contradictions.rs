@@ -136,8 +136,8 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     for (more, words) in [
         (&["--rotors", "8"][..], ["with 4 rotors", "--rotors says 8", "leave --rotors out"]),
         (&["--rotors", "2"], ["with 4 rotors", "--rotors says 2", "leave --rotors out"]),
-        (&["--order", "46"], ["tone of order 69", "by --order the order is 46", "leave --order"]),
-        (&["--blades", "3"], ["tone of order 69", "by --blades the order is 3", "leave --blades"]),
+        (&["--order", "46"], ["sounds 69 times per turn", "by --order it sounds 46 times", "leave --order"]),
+        (&["--blades", "3"], ["sounds 69 times per turn", "by --blades it sounds 3 times", "leave --blades"]),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }

@@ -89,7 +89,7 @@ fn a_speed_that_agrees_proves_no_wrong_number_of_blades() {
         wrong.stdout,
         wrong.stderr
     );
-    assert!(with("2").stdout.contains("order (lines per turn): pass, it is 2"));
+    assert!(with("2").stdout.contains("blades or gear: pass, the tone sounds 2 times per turn"));
 }
 
 #[test]

@@ -108,7 +108,10 @@ fn forces_and_places_must_be_possible() {
     refuses(&["export", "a.json", "--to", "unreal"], &["gazebo", "rotorpy"]);
     refuses(&["weigh", "a.wav"], &["--constant"]);
     refuses(&["weigh", "a.wav", "--constant-n-s2", "0", "--blades", "2"], &["constant_n_s2 = 0", "above 0"]);
-    refuses(&["weigh", "a.wav", "--constant-n-s2", "2.8e-5"], &["the tone of the rotor is not known", "--vehicle"]);
+    refuses(
+        &["weigh", "a.wav", "--constant-n-s2", "2.8e-5"],
+        &["how many times the tone sounds per turn", "--vehicle"],
+    );
 }
 
 #[test]

@@ -58,20 +58,37 @@ pub(super) fn missing_of(control: &LoggedControl, format: LogFormat) -> Vec<Miss
             (false, false) => "its command and its measured value",
         };
         let hint = match (format, command.is_none()) {
-            (LogFormat::Ulog, true) => "log manual_control_setpoint, and fly with the sticks in Altitude mode",
+            (LogFormat::Ulog, true) => {
+                "let PX4 log your sticks (the topic manual_control_setpoint), and fly with them in Altitude mode"
+            }
             (LogFormat::Ulog, false) => measured_hint(
                 control_loop,
-                ["log vehicle_attitude", "log vehicle_angular_velocity", "log vehicle_local_position"],
+                [
+                    "let PX4 log the topic vehicle_attitude",
+                    "let PX4 log the topic vehicle_angular_velocity",
+                    "let PX4 log the topic vehicle_local_position",
+                ],
             ),
-            (LogFormat::DataFlash, true) => "log RCIN, and fly with the sticks in AltHold mode",
-            (LogFormat::DataFlash, false) => measured_hint(control_loop, ["log ATT", "log IMU", "log XKF1 (the EKF)"]),
-            (LogFormat::Blackbox, true) => "log rcCommand, and fly in angle mode (climb: in altitude hold of INAV)",
+            (LogFormat::DataFlash, true) => {
+                "let ArduPilot log your sticks (the message RCIN: RC Input in LOG_BITMASK), and fly with them in AltHold mode"
+            }
+            (LogFormat::DataFlash, false) => measured_hint(
+                control_loop,
+                [
+                    "let ArduPilot log the message ATT",
+                    "let ArduPilot log the message IMU",
+                    "let ArduPilot log the message XKF1 (of the EKF)",
+                ],
+            ),
+            (LogFormat::Blackbox, true) => {
+                "let the blackbox log your sticks (rcCommand), and fly in angle mode (for climb: in altitude hold of INAV)"
+            }
             (LogFormat::Blackbox, false) => measured_hint(
                 control_loop,
                 [
-                    "log attitude: INAV has it, Betaflight does not",
-                    "log gyroADC",
-                    "log navVel: INAV has it, Betaflight does not",
+                    "let the blackbox log the attitude: INAV has it, Betaflight does not",
+                    "let the blackbox log the gyro (gyroADC)",
+                    "let the blackbox log the vertical speed (navVel): INAV has it, Betaflight does not",
                 ],
             ),
             (LogFormat::Csv | LogFormat::RcBenchmark, true) if is_measured => csv_command(control_loop),

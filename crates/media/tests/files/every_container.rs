@@ -123,7 +123,7 @@ fn the_first_track_that_is_not_silent_is_chosen_with_a_warning() {
     for no_such in [0, 3] {
         options.audio_track = Some(no_such);
         let error = Recording::open(&path, &options).expect_err("there is no such track").to_string();
-        assert!(error.contains("the file has 2"), "{error}");
+        assert!(error.contains("the file has audio tracks 1 to 2"), "{error}");
     }
 }
 

@@ -64,7 +64,7 @@ impl ThrustWarning {
                 "fly all loads at the same height and place, in a random sequence, and each with an equally full battery"
             }
             Self::ImplausibleThrustCoefficient { .. } => {
-                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone (blades or gear)"
+                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the number of blades or the gear"
             }
             Self::ImplausibleFigureOfMerit { .. } => {
                 "rotors have 0.05 to 0.85: check the power (of all running rotors together), its unit, and the diameter"

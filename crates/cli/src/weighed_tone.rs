@@ -1,0 +1,89 @@
+//! The tone that `hovertone weigh` hears: that of the flags, or that behind the constant.
+
+use crate::args::{ToneArguments, WeighArguments};
+use crate::failure::Failure;
+use crate::foreign_speed::given;
+use crate::order_words::{times, times_per_turn};
+use crate::settings::tone_of;
+use hovertone::speed::ToneConfig;
+use hovertone_exchange::{HeardTone, IdentifiedRotor};
+use hovertone_report::Notice;
+use hovertone_vehicle::{BLADES_MAX, Order, RotorSpeed};
+
+/// The tone of the arguments, else the tone behind the results with the same settings.
+pub(crate) fn tone_to_hear(
+    arguments: &WeighArguments,
+    results: Option<&IdentifiedRotor>,
+) -> Result<ToneConfig, Failure> {
+    let heard = results.and_then(|rotor| rotor.tone);
+    if let Some(tone) = tone_of(&arguments.tone)? {
+        if let Some(heard) = heard.filter(|_| arguments.tone.vehicle.is_none()) {
+            check_order(tone.order, &heard, &arguments.tone)?;
+        }
+        return Ok(tone);
+    }
+    let heard = heard.ok_or_else(|| {
+        let hint = match &arguments.tone.vehicle {
+            Some(_) => "count the blades of the vehicle, and give --blades N too",
+            None => {
+                "give the number of blades of one propeller, as in --blades 2, or --vehicle with a name that \
+                 `hovertone vehicles` lists; rotors with a gear need --gear too, as in --gear 8:69"
+            }
+        };
+        let what = "hovertone does not know how many times the tone sounds per turn of the rotor, so it cannot tell the \
+                    speed from the sound";
+        Failure::usage(what, hint)
+    })?;
+    let order = Order::new(heard.order)?;
+    let tone = ToneConfig {
+        harmonics: arguments.tone.harmonics.unwrap_or(heard.harmonics),
+        blades: heard.blades,
+        band_hz: arguments.tone.band,
+        band_half_width_share: heard.band_half_width_share,
+        speed_min: RotorSpeed::from_rad_s(heard.speed_rad_s_min),
+        speed_max: RotorSpeed::from_rad_s(heard.speed_rad_s_max),
+        ..ToneConfig::of_order(order)
+    };
+    tone.check_band()?;
+    Ok(tone)
+}
+
+/// That no flag names the tone, so that it is that behind the constant. `None` where a flag does.
+pub(crate) fn tone_of_constant_in_words(
+    typed: &ToneArguments,
+    results: Option<&IdentifiedRotor>,
+) -> Result<Option<Notice>, Failure> {
+    let Some(heard) = results.and_then(|rotor| rotor.tone).filter(|_| tone_of(typed).is_ok_and(|tone| tone.is_none()))
+    else {
+        return Ok(None);
+    };
+    Ok(Some(Notice::new(
+        format!(
+            "the tone is heard as in the recordings of the constant: it sounds {}",
+            times_per_turn(Order::new(heard.order)?)
+        ),
+        "other propellers have another constant: measure it with `hovertone identify`",
+    )))
+}
+
+/// Refuses an order that is neither that of the tone behind the constant nor that of the blade pass.
+fn check_order(said: Order, heard: &HeardTone, typed: &ToneArguments) -> Result<(), Failure> {
+    let lines = said.lines_per_turn();
+    let may_be_blades = |lines: f64| heard.order > BLADES_MAX && lines <= BLADES_MAX && lines.fract() == 0.0;
+    let is_blade_pass = heard.blades.map_or(may_be_blades(lines), |blades| lines == f64::from(blades));
+    if lines == heard.order || is_blade_pass {
+        return Ok(());
+    }
+    let flags: Vec<&str> = given(typed).into_iter().filter(|flag| *flag != "--band").collect();
+    let flags = flags.join(" and ");
+    let what = format!(
+        "{flags} does not fit the constant: in its recordings, the tone sounds {}, but by {flags} it sounds {}",
+        times_per_turn(Order::new(heard.order)?),
+        times(said)
+    );
+    let hint = format!(
+        "if the vehicle still has the same propellers, leave {flags} out; if it has others, measure their constant with \
+         `hovertone identify`"
+    );
+    Err(Failure::usage(what, hint))
+}
