@@ -330,7 +330,7 @@ mod tests {
             ),
             (
                 "hovertone identify --vehicle ardrone",
-                "--vehicle needs masses and recordings too (--mass KG=FILES) (for example `hovertone identify --mass ",
+                "--vehicle needs masses and recordings too (--mass KG=FILES) (for example `hovertone identify --vehicle ardrone --mass ",
             ),
             (
                 "hovertone weigh a.wav",
