@@ -126,7 +126,7 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
         _ if found.is_right() => None,
         Some(ratio) => Some(Notice::new(
             format!("the heard speeds are {} times the logged speeds", significant(ratio, 3)),
-            "check the number of blades or the gear (the order of the tone); check the number of pole pairs in the \
+            "check the number of blades (or the gear); check the number of pole pairs in the \
             ESC's settings; check that the log is of this flight",
         )),
         None => Some(Notice::new(
@@ -293,7 +293,7 @@ mod tests {
         let verdict = |coverage, agreement| verdict_in_words(&verified(coverage, agreement));
         assert!(
             verdict(0.95, Agreement::AsStated)
-                .starts_with("passed: the order of the tone (blades or gear) and the clock are right")
+                .starts_with("passed: the number of blades (or the gear) and the clock are right")
         );
         for (agreement, word) in
             [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]
