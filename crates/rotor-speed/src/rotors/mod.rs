@@ -143,7 +143,7 @@ pub(crate) struct RotorTrack {
 }
 
 impl RotorTrack {
-    fn is_heard(&self) -> bool {
+    pub(crate) fn is_heard(&self) -> bool {
         self.track.blocks.iter().any(|block| block.is_heard)
     }
 }

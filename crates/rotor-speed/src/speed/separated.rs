@@ -10,7 +10,8 @@ use std::f64::consts::{SQRT_2, TAU};
 
 /// Smallest share of the time in which a resolved rotor is heard, and separated from the others. *Decision.*
 const RESOLVED_SHARE_MIN: f64 = 0.5;
-/// Largest share of the time in which a track may follow noise to count as a rotor, even where it is never separated from other rotors.
+/// Largest share of the time in which a track may follow noise to count as a rotor, even where it is never separated from other rotors; and in
+/// which one of more rotors than four may be merged with another.
 /// With four equal rotors, three tracks follow noise at least 38 % of the time. *Decision.*
 const LOST_SHARE_MAX: f64 = 0.2;
 /// Smallest share of the time in which the search would have heard a faint rotor, at which it counts as complete: then a rotor that is not
@@ -60,9 +61,10 @@ impl RotorTracks {
         !self.are_one_group && self.resolved(None).count() >= 2
     }
 
-    /// How many are separated from the others.
-    pub(crate) fn resolved_count(&self) -> usize {
-        self.resolved(None).count()
+    /// Whether each of them is separated from the others nearly all the time. Two tracks of one rotor are close to each other again and again.
+    pub(crate) fn are_all_apart(&self) -> bool {
+        let is_apart = |rotor: &RotorTrack| rotor.is_heard() && self.share_of(&rotor.merged, None) <= LOST_SHARE_MAX;
+        self.close_s == 0.0 && self.rotors.iter().all(is_apart)
     }
 
     /// Whether more than half of them are resolved.

@@ -40,8 +40,7 @@ pub(super) fn heard_rotors(
         let of_more = separated(passes, sought)?;
         leave_another = of_more.leave_another();
         let count = (rotors.heard_count() + 1).next_multiple_of(2);
-        let is_each_apart = of_more.resolved_count() == sought.count as usize;
-        rotors = if is_each_apart { of_more } else { rotors.of_count(count) };
+        rotors = if of_more.are_all_apart() { of_more } else { rotors.of_count(count) };
     }
     Ok(rotors)
 }
