@@ -27,6 +27,10 @@ pub(crate) fn model_hint(error: &ModelError) -> &'static str {
         ModelError::Broken { .. } | ModelError::Quantity(_) => "correct the file, or give another model",
         ModelError::Incomplete { .. } => "correct the model, or give a file with one complete model",
         ModelError::UnlikeRotors { .. } => "give a model whose rotors all have the same constant",
+        ModelError::Unknown => {
+            "give the file of the model in which the thrust constant has one of these names; `hovertone compare --help` \
+             lists the simulators"
+        }
         _ => "give a model that hovertone knows: `hovertone compare --help` lists them",
     }
 }

@@ -74,7 +74,8 @@ fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], termi
         let what = format!("the number of rotors is not given: hovertone separated {count} rotors in the sound");
         terminal.tip(&Notice::new(
             what,
-            "give the number of rotors, as in --rotors 4; if one rotor runs alone, give --rotors 1",
+            "give the number of rotors that your vehicle has, as in --rotors 4: with it, the answer is surer; if one rotor runs \
+             alone, give --rotors 1",
         ));
     }
 }

@@ -54,6 +54,13 @@ pub struct GreyBoxRecord {
     pub other_flight: Option<CheckedFlight>,
 }
 
+impl GreyBoxRecord {
+    /// Whether two rotors may be exchanged: the sound does not tell them apart at odds of 99 to 1.
+    pub fn are_names_doubtful(&self) -> bool {
+        self.names_nats.is_some_and(|nats| nats < NAMES_NATS_MIN)
+    }
+}
+
 /// The check on another flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedFlight {
@@ -130,7 +137,18 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     });
     let better = record.better.map(Warning::FitsElsewhere);
     let hover = record.other_hover.map(Notice::from);
-    hover.into_iter().chain(gains).chain(better.map(|better| Notice::new(better.to_string(), better.hint()))).collect()
+    let names = record.are_names_doubtful().then(|| {
+        Notice::new(
+            "the sound hardly shows which rotor is which: two hover speeds may be exchanged, and the gains may be wrong",
+            "place the microphone nearer to the vehicle, or use a log that has the speeds of the rotors",
+        )
+    });
+    hover
+        .into_iter()
+        .chain(names)
+        .chain(gains)
+        .chain(better.map(|better| Notice::new(better.to_string(), better.hint())))
+        .collect()
 }
 
 /// That the clock of a log was moved; `None` where it was right.
@@ -209,17 +227,12 @@ fn rank_line(record: &GreyBoxRecord) -> String {
     let information = &record.fit.information;
     let told = record.fit.std_uncertainty.iter().flatten().count();
     let of_all = format!("the flight shows {told} of the {} numbers of the model", information.parameters);
-    let rank = match information.rank {
+    match information.rank {
         rank if rank < information.parameters => {
             format!("{of_all}; {rank} of them could be found independently of each other")
         }
         _ => of_all,
-    };
-    let names = match record.names_nats {
-        Some(nats) if nats < NAMES_NATS_MIN => "; the names of two rotors may be swapped",
-        _ => "",
-    };
-    format!("{rank}{names}")
+    }
 }
 
 /// Odds of 99 to 1.

@@ -62,8 +62,9 @@ fn experiment_of(text: &str) -> Result<Experiment, String> {
     }
     let has_log = |recording: &hovertone::experiment::RecordingSection| recording.log().is_some();
     if file.loads.iter().flat_map(|load| &load.recordings).any(has_log) {
-        let what = "the experiment names logs of flights, which the page does not read";
-        return Err(format!("{what}; name the recordings alone, or use `hovertone identify`"));
+        let what = "the experiment file names logs of flights, which the page does not read";
+        let hint = "write \"a.wav\" in place of { file = \"a.wav\", log = \"a.ulg\" }, or use `hovertone identify`";
+        return Err(format!("{what}; {hint}"));
     }
     file.resolve(None).map_err(|error| error.to_string())
 }

@@ -31,8 +31,9 @@ impl FlownLog {
             .ok_or_else(|| refused("this is no log", "name the log of the flight, as in log = \"a.ulg\""))?;
         let signals = logs_of_motors(flight.speeds_rev_s.clone(), flight.commands.clone(), path)?;
         if signals.is_empty() {
-            let hint = "log the speeds that the ESCs report (telemetry), or the commands of the motors";
-            return Err(refused("this log has neither rotor speeds nor motor commands", hint));
+            let hint = "in a CSV, name these columns rotor1_rpm or motor1_pwm, and so on; else log the speeds that the ESCs \
+                        report (telemetry), or the motor commands. Without a log, write the name of the recording alone";
+            return Err(refused("this log has no rotor speeds and no motor commands that hovertone knows", hint));
         }
         let sha256 = wants_hash.then(|| sha256_of_file(path)).transpose();
         let sha256 = sha256.map_err(|error| refused(&format!("the log cannot be read: {error}"), "check the disk"))?;

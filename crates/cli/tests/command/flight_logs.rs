@@ -129,5 +129,5 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
     refused("3", 2, &["has 3 where text in quotes is needed"]);
     refused(&with_log(&flown.sound, "flown/again.wav"), 1, &["this is no log"]);
     fs::write(folder.join("rates.csv"), "time_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s\n0,1,1,1\n1,2,2,2\n").unwrap();
-    refused(&with_log(&flown.sound, "rates.csv"), 1, &["neither rotor speeds nor motor commands"]);
+    refused(&with_log(&flown.sound, "rates.csv"), 1, &["no rotor speeds and no motor commands"]);
 }
