@@ -1,4 +1,4 @@
-//! The grey box of eqs 1 and 2: a table for people, a JSON line for programs.
+//! The grey box of eqs 1 and 2: a table for people.
 
 use crate::motor::torque_constant_text;
 use crate::notice::Notice;
@@ -9,12 +9,10 @@ use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::typeset::TitledTable;
-use crate::version::VERSION;
 use hovertone_analysis::{OtherRotor, Warning};
-use hovertone_dynamics::{Advice, Checked, Correlation, GreyBoxFit, Parameter, TorqueConstant};
+use hovertone_dynamics::{Advice, Checked, GreyBoxFit, Parameter, TorqueConstant};
 use hovertone_thrust::COVERAGE_FACTOR;
 use hovertone_vehicle::{Axis, Estimate, RotorSpeed};
-use serde::Serialize;
 
 const MS_PER_S: f64 = 1e3;
 const PERCENT: f64 = 100.0;
@@ -101,7 +99,7 @@ pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
 }
 
 /// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
-fn trust(record: &GreyBoxRecord) -> &'static str {
+pub(crate) fn trust(record: &GreyBoxRecord) -> &'static str {
     if record.are_speeds_logged {
         "the ± is about right: in simulated flights, 90 to 100 % of the errors were within it, and 95 % should be"
     } else {
@@ -264,126 +262,6 @@ fn check_lines(record: &GreyBoxRecord) -> String {
         };
     }
     text
-}
-
-#[derive(Serialize)]
-struct GreyBoxLine<'a> {
-    recording: Option<&'a str>,
-    log: &'a str,
-    vehicle: &'a str,
-    are_speeds_logged: bool,
-    observation_count: usize,
-    parameters: Vec<ParameterLine>,
-    loops: Vec<LoopLine>,
-    torque_constant_n_m_s2: Option<Estimate>,
-    torque_constant_reason: Option<String>,
-    rank: usize,
-    condition: f64,
-    correlations: Vec<CorrelationLine>,
-    names_nats: Option<f64>,
-    log_moved_s: f64,
-    advice: Vec<AdviceLine<'a>>,
-    rms_share: Option<f64>,
-    check: Option<CheckLine<'a>>,
-    warnings: Vec<String>,
-    version: &'static str,
-}
-
-#[derive(Serialize)]
-struct ParameterLine {
-    name: String,
-    value: f64,
-    std_uncertainty: Option<f64>,
-    is_told: bool,
-}
-
-#[derive(Serialize)]
-struct LoopLine {
-    name: &'static str,
-    proportional_v: Option<Estimate>,
-    derivative_v: Option<Estimate>,
-}
-
-#[derive(Serialize)]
-struct CorrelationLine {
-    first: String,
-    second: String,
-    correlation: f64,
-}
-
-#[derive(Serialize)]
-struct AdviceLine<'a> {
-    what: &'a str,
-    hint: &'a str,
-}
-
-#[derive(Serialize)]
-struct CheckLine<'a> {
-    recording: Option<&'a str>,
-    log: &'a str,
-    rms_share: Option<f64>,
-    change_share: Option<f64>,
-    compared_share: Option<f64>,
-}
-
-/// The grey box as one line of JSON. Gains are in rad/s of the rotor, and in volts by the vehicle's motor.
-///
-/// # Errors
-/// A number that JSON cannot hold.
-pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
-    let fit = &record.fit;
-    let parameters = Parameter::all().into_iter().zip(fit.model.to_vector());
-    let volts = |parameter| Some(fit.estimate(parameter)?.scaled(record.slope_v_s_rad));
-    let correlation = |pair: &Correlation| CorrelationLine {
-        first: pair.first.name(),
-        second: pair.second.name(),
-        correlation: pair.correlation,
-    };
-    let warnings = grey_box_warnings(record).into_iter().map(|notice| notice.to_string());
-    let line = GreyBoxLine {
-        recording: record.recording.as_deref(),
-        log: &record.log,
-        vehicle: &record.vehicle,
-        are_speeds_logged: record.are_speeds_logged,
-        observation_count: fit.observations,
-        parameters: parameters
-            .map(|(parameter, value)| {
-                let told = fit.estimate(parameter);
-                let std_uncertainty = told.and_then(|told| told.std_uncertainty);
-                ParameterLine { name: parameter.name(), value, std_uncertainty, is_told: told.is_some() }
-            })
-            .collect(),
-        loops: Axis::ALL
-            .into_iter()
-            .map(|axis| LoopLine {
-                name: axis.name(),
-                proportional_v: volts(Parameter::Proportional(axis)),
-                derivative_v: volts(Parameter::Derivative(axis)),
-            })
-            .collect(),
-        torque_constant_n_m_s2: match &record.torque_constant {
-            TorqueConstant::Told(told) => Some(*told),
-            _ => None,
-        },
-        torque_constant_reason: record.torque_constant.reason(),
-        rank: fit.information.rank,
-        condition: fit.information.condition,
-        correlations: fit.information.correlations.iter().map(correlation).collect(),
-        log_moved_s: record.log_moved_s,
-        names_nats: record.names_nats.filter(|nats| nats.is_finite()),
-        advice: record.advice.iter().map(|advice| AdviceLine { what: &advice.what, hint: &advice.hint }).collect(),
-        rms_share: record.fitted.map(|fitted| fitted.rms_share),
-        check: record.other_flight.as_ref().map(|other| CheckLine {
-            recording: other.recording.as_deref(),
-            log: &other.log,
-            rms_share: other.result.map(|result| result.rms_share),
-            change_share: other.result.map(|result| result.change_share),
-            compared_share: other.result.map(|result| result.compared_share),
-        }),
-        warnings: std::iter::once(trust(record).to_owned()).chain(warnings).collect(),
-        version: VERSION,
-    };
-    serde_json::to_string(&line)
 }
 
 /// The gains beside a truth that is known, for simulated flights: parameter, identified, true, difference.

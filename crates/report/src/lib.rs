@@ -38,6 +38,7 @@ mod flight_plan;
 mod folded_warnings;
 mod given;
 mod grey_box;
+mod grey_box_json;
 mod logged;
 mod missing_speed;
 mod models;
@@ -83,9 +84,10 @@ pub use folded_warnings::{
     weaknesses_in_words,
 };
 pub use grey_box::{
-    CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables,
-    grey_box_text, grey_box_warnings,
+    CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_notes, grey_box_tables, grey_box_text,
+    grey_box_warnings,
 };
+pub use grey_box_json::grey_box_json;
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource, motor_text};

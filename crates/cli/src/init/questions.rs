@@ -107,12 +107,11 @@ fn ask_loads<R: BufRead, W: Write>(
         if names.is_empty() {
             return Ok(loads);
         }
-        let question = "Mass in flight in these recordings, in kg (0.413) or g (413g):";
-        let mass_kg = dialog.ask(question, |answer| match optional_mass(answer, vehicle)? {
-            Some(mass_kg) => Ok(mass_kg),
-            None => Err("A mass is needed, in kg (0.413) or g (413g).".to_owned()),
-        })?;
-        put_load(&mut loads, LoadDraft { mass_kg, recordings: names });
+        let question = "Mass in flight in these recordings, in kg (0.413) or g (413g) [leave these recordings out]:";
+        let mass = dialog.ask(question, |answer| optional_mass(answer, vehicle))?;
+        if let Some(mass_kg) = mass {
+            put_load(&mut loads, LoadDraft { mass_kg, recordings: names });
+        }
     }
 }
 
@@ -246,6 +245,17 @@ mod tests {
         for words in ["Did you mean \"ardrone\"", "whole number", "swapped", "from 10 mm", "413g", "No file matches"] {
             assert!(asked.contains(words), "{words}:\n{asked}");
         }
+    }
+
+    /// A name may be the wrong one, or its mass unknown.
+    #[test]
+    fn named_recordings_can_be_left_out() {
+        let folder = folder_with(&["hover.mov"]);
+        let flags = Draft { blades: Some(2), rotors: Some(4), diameter_m: Some(0.2), ..Draft::default() };
+        let (draft, asked) = answered(flags, folder.path(), "0.5\nhover.mov\n\n\n");
+        let loads = draft.unwrap().loads;
+        assert_eq!((loads.len(), loads[0].recordings.len()), (1, 1), "{asked}");
+        assert!(asked.contains("[leave these recordings out]:"), "{asked}");
     }
 
     #[test]
