@@ -299,7 +299,7 @@ mod tests {
             [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]
         {
             let words = verdict(0.59, agreement);
-            assert!(words.starts_with("passed: the order of the tone") && words.contains("\n±: not passed"), "{words}");
+            assert!(words.starts_with("passed: the number of blades") && words.contains("\n±: not passed"), "{words}");
             assert!(words.contains(word) && words.contains("only 59 % of the logged speeds"), "{words}");
             assert!(small_plus_minus(&verified(0.59, agreement)).is_some());
         }
