@@ -48,6 +48,10 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
         assert!(rotor["bias_rev_s"].as_f64().unwrap().abs() < 0.1, "{rotor}");
         assert!(rotor["scatter_rev_s"].as_f64().unwrap() < 0.5, "{rotor}");
     }
+    // one tone for all rotors: its ± has their spread
+    let of_mean = hovertone(&[&asked[..], &["--mean-only", "--json"]].concat()).ends_with(0).json_lines().remove(0);
+    let rotor = &of_mean["rotors"][0];
+    assert!(rotor["coverage"].as_f64().unwrap() > 0.9 && of_mean["rotors"].as_array().unwrap().len() == 1, "{of_mean}");
     let figure = folder.path().join("check.svg");
     let drawn = hovertone(&[&asked[..], &["--figure", text(&figure)]].concat()).ends_with(0);
     assert!(drawn.stdout.contains("passed: the number of blades (or the gear) and the clock are right"));
