@@ -3,8 +3,8 @@
 use crate::Warning;
 
 /// Advice where several rotors sound in the band.
-const NARROWER_BAND: &str =
-    "hovertone follows the rotor that is loudest at each moment; to follow one rotor, give a narrower --band";
+const NARROWER_BAND: &str = "hovertone follows whichever rotor is loudest at each moment; if several rotors turn, give their number with --rotors; to follow one \
+     rotor, give a --band around its tone that is a few per cent wide";
 
 /// Which facts were given. Beside a vehicle, the other facts are those that the vehicle does not tell in this way itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -179,7 +179,9 @@ mod tests {
         };
         let in_band = GivenFacts { band: true, ..GivenFacts::default() };
         assert_eq!(about("--band", hints(in_band, &warnings)), ["leave --band out, or give a wider one"]);
-        assert!(hints(in_band, &warnings[3..4])[0].contains("give a narrower --band"));
+        assert!(
+            hints(in_band, &warnings[3..4])[0].ends_with("give a --band around its tone that is a few per cent wide")
+        );
         let in_window = GivenFacts { band: true, window: true, ..GivenFacts::default() };
         assert_eq!(about("--", hints(in_window, &warnings)).len(), 1);
         let without = about("--band", hints(GivenFacts::default(), &warnings));

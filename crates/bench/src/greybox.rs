@@ -208,7 +208,7 @@ fn fit_of(flown: &mut Flown, preset: &str, source: Source) -> Option<GreyBoxFit>
     let orders = LineOrders::of(find_preset(preset)?)?;
     let range = 0.7 * hover_rev_s..1.35 * hover_rev_s;
     let lines = lines_from_passes(&mut passes, 0.0..f64::INFINITY, &orders, range).ok()?;
-    Some(grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).ok()?.fit)
+    Some(grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default(), &mut |_| {}).ok()?.fit)
 }
 
 /// The exam of one flight; `None` where it could not be flown or fitted.

@@ -260,11 +260,10 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             "run `hovertone identify EXPERIMENT.toml -o DIR`, then give DIR/results.json",
             path,
         ),
-        ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => Failure::Usage {
-            what: error.to_string(),
-            hint: "give --group NAME".to_owned(),
-            path: Some(path.to_owned()),
-        },
+        ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => {
+            let hint = "give one of these names with --group".to_owned();
+            Failure::Usage { what: error.to_string(), hint, path: Some(path.to_owned()) }
+        }
         ResultsError::NoGroups { .. } => Failure::Usage {
             what: error.to_string(),
             hint: "leave --group out".to_owned(),

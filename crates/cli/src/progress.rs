@@ -3,18 +3,28 @@
 use crate::caller::{OnProgress, on_progress};
 use crate::temporary_file::begin_work;
 use crate::terminal::width_of;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
 use std::io::{self, IsTerminal};
 use std::time::Duration;
 
 /// Steps of the bar for each recording.
 const STEPS: u64 = 1000;
 const TICK: Duration = Duration::from_millis(120);
-const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {eta} left";
+const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {left}";
 /// On a narrow terminal the words are cut, and the bar is left out.
 const NARROW_BAR: &str = "{wide_msg} {percent:>3} %";
 /// Columns that the words, the numbers and a bar of some length need.
 const BAR_WIDTH_MIN: usize = 72;
+
+/// The time that is left, which nobody knows before anything is done.
+fn write_time_left(state: &ProgressState, to: &mut dyn Write) {
+    // words that cannot be written are left out
+    let _ = match state.pos() {
+        0 => Ok(()),
+        _ => write!(to, "{:#} left", HumanDuration(state.eta())),
+    };
+}
 
 /// One bar for all recordings.
 pub(crate) struct Progress {
@@ -34,7 +44,7 @@ impl Progress {
         let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(STEPS * recording_count as u64), target);
         if let Ok(style) = ProgressStyle::with_template(if is_narrow { NARROW_BAR } else { BAR }) {
-            bar.set_style(style);
+            bar.set_style(style.with_key("left", write_time_left));
         }
         let things = if recording_count == 1 { "recording" } else { "recordings" };
         let message = format!("{verb} {recording_count} {things}");
@@ -47,6 +57,14 @@ impl Progress {
 
     /// The part of the bar for one recording.
     pub(crate) fn recording(&self) -> Share<'_> {
+        Share { progress: self, steps_done: 0, shown: None }
+    }
+
+    /// The next part of the work: the bar begins again, with other words.
+    pub(crate) fn next(&self, words: &'static str) -> Share<'_> {
+        self.bar.reset();
+        self.bar.set_length(STEPS);
+        self.bar.set_message(words);
         Share { progress: self, steps_done: 0, shown: None }
     }
 

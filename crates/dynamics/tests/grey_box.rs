@@ -173,7 +173,7 @@ fn heard_speeds_tell_the_gains() {
     let mut passes = Passes::planned(&mut flown.sound, 1, &mut quiet).unwrap();
     let orders = LineOrders::of(find_preset("f450").unwrap()).unwrap();
     let lines = lines_from_passes(&mut passes, 0.0..24.0, &orders, 0.75 * hover..1.3 * hover).unwrap();
-    let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).unwrap();
+    let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default(), &mut |_| {}).unwrap();
     gains_are_within(&heard.fit, &flown.truth, 0.05);
     for rotor in 0..4 {
         let off = heard.fit.model.hover_rad_s[rotor] / flown.truth.hover_rad_s[rotor] - 1.0;

@@ -19,7 +19,7 @@ use counts::Counts;
 use folder::{BatchFolder, identity_in};
 use hearing::{Manner, hear_missing};
 use hovertone_archive::{BatchIdentity, FORMAT, Plan, Shard};
-use hovertone_report::{VERSION, counted, printable};
+use hovertone_report::{Notice, VERSION, counted, printable};
 use inputs::{Names, Recordings, recordings_of, spelled_as_before};
 use serde_json::json;
 use tables::write_tables;
@@ -78,6 +78,12 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
         folder.remove_other_parts(&plan)?;
     }
     written.iter().flat_map(|written| &written.failed).for_each(|failed| terminal.error(failed));
+    if written.as_ref().is_some_and(|written| !written.failed.is_empty()) {
+        terminal.tip(&Notice::new(
+            "the next run does not hear these recordings again by itself",
+            "mend the cause, then run the same command with --retry",
+        ));
+    }
     let overview = folder.place(tables::OVERVIEW);
     if let Some(notice) = written.as_ref().and_then(|written| written.notice_of_unsure(&overview)) {
         terminal.warning(&notice, "");

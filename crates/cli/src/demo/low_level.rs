@@ -52,7 +52,7 @@ pub(super) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     let truth = flown(&doublets, FIT_FLIGHT, folder)?;
     flown(&check, CHECK_FLIGHT, folder)?;
     let vehicle = GreyBoxVehicle::find(PRESET, None)?;
-    let progress = Progress::new("listening", 2, !arguments.no_progress);
+    let progress = Progress::new("listening to", 1, !arguments.no_progress);
     let [fit_files, check_files] = [FIT_FLIGHT, CHECK_FLIGHT].map(|name| files_of(folder, name));
     let [mut fit_log, mut check_log] = [read(&fit_files, &vehicle)?, read(&check_files, &vehicle)?];
     let heard = fit_of(&fit_files, &mut fit_log, &vehicle, Hearing::default(), &progress)?;

@@ -316,7 +316,10 @@ pub(crate) fn fit_of(
                 return Err(not_followed(&files.log));
             }
             let better = better_rotor(recording, &vehicle.config()?, hearing, progress)?;
-            let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).map_err(stopped)?;
+            let fitting = &mut progress.next("fitting the model to the sound");
+            let told = &mut |share| fitting.set(share);
+            let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default(), told);
+            let heard = heard.map_err(stopped)?;
             let SoundFit { fit, observations, names_nats } = heard;
             Ok(Heard { fit, observations, names_nats: Some(names_nats), better, other_hover })
         }

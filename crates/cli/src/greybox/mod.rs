@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     let reader = LogReader::of(arguments)?;
     let mut flown = reader.read(&files, &vehicle)?;
     let mut other_flown = other.as_ref().map(|files| reader.read(files, &vehicle)).transpose()?;
-    let progress = Progress::new("listening", 1, !arguments.hearing.no_progress);
+    let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
     let hearing = Hearing::of(&arguments.hearing);
     let heard = fit_of(&files, &mut flown, &vehicle, hearing, &progress)?;
     let checked_speeds = other

@@ -70,7 +70,7 @@ pub struct SoundFit {
     pub names_nats: f64,
 }
 
-/// Fits the model to a recording. `start` is the vehicle by its numbers.
+/// Fits the model to a recording. `start` is the vehicle by its numbers. `told` gets the finished share after each round.
 ///
 /// # Errors
 /// Those of `grey_box_from_speeds`.
@@ -79,6 +79,7 @@ pub fn grey_box_from_sound(
     inputs: &LoopInputs,
     start: &GreyBoxModel,
     config: &SoundConfig,
+    told: &mut dyn FnMut(f64),
 ) -> Result<SoundFit, GreyBoxStop> {
     let windows = windows_of(heard, inputs, config.window_s);
     let (mut model, mut names_nats) = (start_model(heard, inputs, start, &windows, config), f64::INFINITY);
@@ -86,7 +87,8 @@ pub fn grey_box_from_sound(
     let mut rounds = rising_orders(heard);
     rounds.extend(std::iter::repeat_n(f64::INFINITY, config.rounds));
     let (mut last, mut time_error_s) = (None, config.time_error_s_first);
-    let seatings = rounds.len() - 2;
+    let (seatings, steps) = (rounds.len() - 2, (rounds.len() + 1) as f64);
+    told(1.0 / steps);
     for (round, order_max) in rounds.into_iter().enumerate() {
         let reach = Reach { order_max, time_error_s };
         let near = &heard.followed(&SpeedPrediction::new(inputs, &model), NEAR_SHARE);
@@ -103,6 +105,7 @@ pub fn grey_box_from_sound(
             precision = fit.wander_precision;
         }
         last = Some((fit, observations));
+        told((round + 2) as f64 / steps);
     }
     let (fit, observations) = last.ok_or(GreyBoxStop::NotConverged)?;
     let fit = fit.with_time_uncertainty(config.echo_std_s).with_doppler_uncertainty(inputs.lever_m);

@@ -49,7 +49,9 @@ impl ThrustWarning {
             }
             Self::SingleLoad => "measure a second load",
             Self::OneRecordingEach { .. } => "record each load five times, if possible, and land in between",
-            Self::EqualLoads { .. } => "fly masses that differ as much as is safe: equal masses cannot test the law",
+            Self::EqualLoads { .. } => {
+                "measure masses or thrusts that differ as much as is safe: equal ones cannot test the law"
+            }
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
                 "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
             }
@@ -80,7 +82,7 @@ impl ThrustWarning {
                 "do not use this constant: check the masses and which recording belongs to which load, then record each load five times"
             }
             Self::LoudestRotor => {
-                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, use the method separated, place the microphone nearer and record without compression"
+                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression; the methods maximum_trace and gaussian never separate them"
             }
         }
     }

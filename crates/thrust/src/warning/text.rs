@@ -80,8 +80,8 @@ impl fmt::Display for ThrustWarning {
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the mass of the vehicle, {:.1} g, comes from a preset or a model: this vehicle was not weighed", 1e3 * mass_kg)
             }
-            Self::LoudestRotor => f.write_str("the rotors were not separated: one tone is used for all, from the loudest rotor or from \
-            several"),
+            Self::LoudestRotor => f.write_str("the rotors were not separated: one tone is used for all of them, and it may be that of \
+            the loudest rotor alone"),
             Self::TooUncertain { share, .. } => {
                 write!(f, "the ± of C_f is larger than C_f itself: it is {:.0} % (k = {COVERAGE_FACTOR})", 100.0 * share)
             }
