@@ -11,7 +11,11 @@ pub(crate) const DECIMAL_SIGN: &str = "the decimal sign is a point";
 /// A number with a decimal comma or a percent sign: what is wrong, and what to write.
 pub(crate) fn number_meant(value: &str) -> Option<(&'static str, String)> {
     if let Some(point) = with_point(value) {
-        return Some((DECIMAL_SIGN, format!("write {point}")));
+        let write = match thousands(value) {
+            Some(whole) => format!("write {whole}, or {point} for a number with decimals"),
+            None => format!("write {point}"),
+        };
+        return Some((DECIMAL_SIGN, write));
     }
     let percent: f64 =
         with_point(value.strip_suffix('%')?).as_deref().or(value.strip_suffix('%'))?.trim().parse().ok()?;
@@ -27,6 +31,14 @@ pub(crate) fn with_point(word: &str) -> Option<String> {
     };
     let parts: Option<Vec<String>> = word.split(':').map(of_part).collect();
     parts.map(|parts| parts.join(":")).filter(|point| point != word)
+}
+
+/// The number whose comma may stand between thousands: three digits behind one to three that do not begin with 0.
+fn thousands(word: &str) -> Option<String> {
+    let (before, behind) = word.split_once(',')?;
+    let is_whole = |digits: &str| digits.bytes().all(|digit| digit.is_ascii_digit());
+    let is_head = (1..=3).contains(&before.len()) && is_whole(before) && !before.starts_with('0');
+    (is_head && behind.len() == 3 && is_whole(behind)).then(|| format!("{before}{behind}"))
 }
 
 /// What was meant by a flag that the command does not have: a long flag with one dash, or a file for what is printed.
@@ -85,6 +97,8 @@ mod tests {
             ("8,5 in", "write 8.5 in"),
             ("100,5:200", "write 100.5:200"),
             ("1:02,5", "write 1:02.5"),
+            ("20,000", "write 20000, or 20.000 for a number with decimals"),
+            ("0,413", "write 0.413"),
         ] {
             assert_eq!(number_meant(typed).map(|(_, hint)| hint).as_deref(), Some(meant), "{typed}");
         }

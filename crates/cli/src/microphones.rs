@@ -12,7 +12,7 @@ use hovertone::rotors::{
 };
 use hovertone::speed::TrackPoint;
 use hovertone_media::{OpenOptions, Recording};
-use hovertone_report::{Notice, counted};
+use hovertone_report::{Notice, NoticeKind, counted};
 use hovertone_vehicle::Vehicle;
 use serde::Deserialize;
 use std::path::Path;
@@ -170,7 +170,8 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
             Ok(lines) => channel_lines.push(lines),
             Err(error) => {
                 let text = format!("no rotor is named, because channel {channel} could not be heard: {error}");
-                record.notices.push(Notice::new(text, "check the file"));
+                let hint = "leave the file in its place while hovertone hears it, and run the command again";
+                record.notices.push(Notice::new(text, hint).of_kind(NoticeKind::NoNames));
                 return;
             }
         }

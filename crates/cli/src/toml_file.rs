@@ -94,6 +94,10 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
             let what = format!("the {} has a gear in another form than TOML needs", file.kind);
             (what, format!("write {GEAR}; {}", file.see_example))
         }
+        () if error.message().starts_with("invalid time") => {
+            let what = format!("the {} has a time in another form than TOML needs", file.kind);
+            (what, "write seconds as a number, as in from_s = 2.0".to_owned())
+        }
         () => (what, hint),
     };
     let what = format!("{what}\n{}", place.underlined());

@@ -59,7 +59,7 @@ pub(crate) fn tone_of_constant_in_words(
     };
     Ok(Some(Notice::new(
         format!(
-            "the tone is heard as in the recordings of the constant: it sounds {}",
+            "hovertone listens for the tone that the recordings of the constant have: it sounds {}",
             times_per_turn(Order::new(heard.order)?)
         ),
         "other propellers have another constant: measure it with `hovertone identify`",

@@ -6,10 +6,13 @@ use hovertone_report::Wording;
 pub(crate) const IN_PLACE_OF_FILE: Wording = Wording { has_loads: true, ..Wording::of_phrases(IN_PLACE_OF_KEYS) };
 
 const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
-    ("--from and --to", "from_s and to_s under [[load]] of the experiment file that -o DIR writes"),
-    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of the experiment file that -o DIR writes"),
-    ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
-    ("--harmonics 1", "harmonics = 1 under [tone] of the experiment file that -o DIR writes"),
+    (
+        "--from and --to",
+        "from_s and to_s: add -o DIR, write them (in s) under the [[load]] in DIR/experiment.toml, and give this file to `hovertone identify`",
+    ),
+    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] in DIR/experiment.toml, which -o DIR writes"),
+    ("--band", "band_hz under [tone] in DIR/experiment.toml, which -o DIR writes"),
+    ("--harmonics 1", "harmonics = 1 under [tone] in DIR/experiment.toml, which -o DIR writes"),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
     (
         "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with \
@@ -17,7 +20,7 @@ const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
         "C_f uses their mean speed, and its ± allows for this; ",
     ),
     OTHER_ROTORS_IN_FLIGHT,
-    ("under [samples] in the experiment file", "under [samples] of the experiment file that -o DIR writes"),
+    ("under [samples] in the experiment file", "under [samples] in DIR/experiment.toml, which -o DIR writes"),
     ("--mass-kg", "--mass"),
     ("under the right [[load]]", "after the right --mass"),
     ("give each mass a [[load]] of its own", "give --mass once for each mass"),

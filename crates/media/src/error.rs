@@ -206,6 +206,11 @@ fn why_not_opened(error: &io::Error) -> String {
             "you have no right to read it, or to open its folder; ask the owner for the right to read it, or for a copy"
                 .to_owned()
         }
+        io::ErrorKind::NotADirectory => {
+            "a part of the path is a file and no folder; correct the path: behind the name of a file stands nothing"
+                .to_owned()
+        }
+        io::ErrorKind::InvalidFilename => "the name is too long, or not allowed; check the name".to_owned(),
         _ if error.get_ref().is_some() => error.to_string(),
         _ => format!("{error}; check the file and its disk"),
     }

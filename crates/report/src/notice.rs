@@ -29,6 +29,15 @@ pub enum NoticeKind {
     Impossible,
     /// The vehicle cannot hover with its mass at the speed.
     CannotHover,
+    /// No rotor has a name, although names were asked for.
+    NoNames,
+}
+
+impl NoticeKind {
+    /// Whether the answer is not complete with such a notice.
+    pub(crate) fn is_incomplete(self) -> bool {
+        matches!(self, Self::Impossible | Self::CannotHover | Self::NoNames)
+    }
 }
 
 impl Notice {

@@ -1,6 +1,6 @@
 //! The record of one recording: its facts and its result.
 
-use crate::notice::{Notice, NoticeKind};
+use crate::notice::Notice;
 use crate::wording::Wording;
 use hovertone_analysis::{
     Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
@@ -242,7 +242,7 @@ impl SpeedRecord {
         let has_labels = self.labels.as_ref().is_none_or(|labels| labels.not_told.is_none());
         self.speed().is_none()
             || self.contradiction().is_some()
-            || self.notices.iter().any(|notice| matches!(notice.kind, NoticeKind::Impossible | NoticeKind::CannotHover))
+            || self.notices.iter().any(|notice| notice.kind.is_incomplete())
             || !has_labels
             || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
     }

@@ -143,10 +143,11 @@ impl FlownLog {
         let beyond = control.command.iter().flatten().flatten().find(|command| command.abs() > 1.0 + 1e-9);
         if let Some(command) = beyond {
             let what = format!(
-                "a command of this log is {command}, but commands must be from −1 to 1, where 1 is the full stick"
+                "a command of this log is {command}, but commands must be from −1 to 1: 0 is the stick in the middle, \
+                 and 1 the full stick"
             );
             let hint =
-                "divide the commands of each column by their value at the full stick; for a stick in percent, by 100";
+                "for a stick from 1000 to 2000 µs, write (value − 1500) / 500; for a stick in percent, value / 100";
             return Err(Failure::Usage { what, hint: hint.to_owned(), path: Some(path.to_owned()) });
         }
         let speeds_rad_s = speeds_rad_s(&control);

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::recording_files::has_ending_of_recording;
 use hovertone_media::{FileAccess, MediaError, OpenOptions, Recording};
 use hovertone_stores::{Address, Patience, Service, StoreError, StoredFile, Stores};
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -60,6 +60,14 @@ pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
     let file = file_at(path).map_err(|error| failure(&error, path))?;
     match file.open().and_then(|mut file| file.read_to_string(&mut text)) {
         Ok(_) => Ok(text),
+        Err(error) if error.kind() == ErrorKind::InvalidData && error.get_ref().is_none() => {
+            let what = "this list is no text in UTF-8";
+            Err(Failure::failed(what, "save the list as UTF-8", path))
+        }
+        // an error of a store brings its own advice
+        Err(error) if error.get_ref().is_some() => {
+            Err(Failure::failed(format!("this list cannot be read: {error}"), "", path))
+        }
         Err(error) => Err(Failure::failed(
             format!("this list cannot be read: {error}"),
             "check the address and the connection",
