@@ -164,7 +164,8 @@ fn what_a_log_lacks_is_said_for_each_loop_with_what_to_log() {
 
     let without = control_of(&ulog(1, false));
     let told: Vec<(ControlLoop, &str)> = missing(&without).iter().map(|(of, _, hint)| (*of, *hint)).collect();
-    assert_eq!(told, [(ControlLoop::Roll, "log vehicle_attitude"), (ControlLoop::Pitch, "log vehicle_attitude")]);
+    let attitude = "let PX4 log the topic vehicle_attitude";
+    assert_eq!(told, [(ControlLoop::Roll, attitude), (ControlLoop::Pitch, attitude)]);
     // the rows are those of the rates then
     assert!(without.time_s.len() as u64 >= ROWS - 2 && without.rates_rad_s[2].is_some());
 
