@@ -12,18 +12,19 @@ use std::time::Duration;
 const STEPS: u64 = 1000;
 const TICK: Duration = Duration::from_millis(120);
 const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {left}";
+/// From this finished part on, the time that is left is shown.
+const TIMED_FRACTION_MIN: f32 = 0.01;
 /// On a narrow terminal the words are cut, and the bar is left out.
 const NARROW_BAR: &str = "{wide_msg} {percent:>3} %";
 /// Columns that the words, the numbers and a bar of some length need.
 const BAR_WIDTH_MIN: usize = 72;
 
-/// The time that is left, which nobody knows before anything is done.
+/// The time that is left, which nobody knows before something is done.
 fn write_time_left(state: &ProgressState, to: &mut dyn Write) {
-    // words that cannot be written are left out
-    let _ = match state.pos() {
-        0 => Ok(()),
-        _ => write!(to, "{:#} left", HumanDuration(state.eta())),
-    };
+    if state.fraction() >= TIMED_FRACTION_MIN {
+        // words that cannot be written are left out
+        let _ = write!(to, "{:#} left", HumanDuration(state.eta()));
+    }
 }
 
 /// One bar for all recordings.
