@@ -1,6 +1,7 @@
 //! Facts that a person gave before a recording was heard. Advice names those, and no others.
 
 use crate::Warning;
+use hovertone_vehicle::in_list;
 
 /// Advice where several rotors sound in the band.
 const NARROWER_BAND: &str = "hovertone follows whichever rotor is loudest at each moment; if several rotors turn, give their number with --rotors; to follow one \
@@ -40,12 +41,8 @@ impl GivenFacts {
             (self.mass, "the mass"),
             (self.band, "the band"),
         ];
-        let given: Vec<&str> = facts.into_iter().filter(|(is_given, _)| *is_given).map(|(_, fact)| fact).collect();
-        match given.split_last() {
-            None => "the given facts".to_owned(),
-            Some((only, [])) => (*only).to_owned(),
-            Some((end, others)) => format!("{} {last} {end}", others.join(", ")),
-        }
+        let given = named(&facts);
+        if given.is_empty() { "the given facts".to_owned() } else { in_list(&given, last) }
     }
 
     /// The facts that the number of blades alone replaces. A diameter and a mass may stay beside it.
@@ -58,20 +55,19 @@ impl GivenFacts {
 
     /// Advice that asks for a check of the number of blades, in words for the facts that were given: no gear is blamed that nobody gave.
     fn in_given_words(self, advice: &str) -> String {
-        let of_tone = match (self.vehicle, self.blades, self.gear) {
-            (true, true, true) => "the vehicle, the blades and the gear",
-            (true, true, false) => "the vehicle and the blades",
-            (true, false, true) => "the vehicle and the gear",
-            (true, ..) if self.order => "the vehicle and the number of --order",
-            (true, ..) => "the vehicle",
-            (false, true, true) => "the blades and the gear",
-            (false, false, true) => "the gear",
-            (false, ..) if self.order => "the number of --order",
-            (false, ..) => "the number of blades",
+        let facts = [
+            (self.vehicle, "the vehicle"),
+            (self.blades, "the blades"),
+            (self.gear, "the gear"),
+            (self.order, "the number of --order"),
+        ];
+        let of_tone = match self.vehicle || self.gear || self.order {
+            true => in_list(&named(&facts), "and"),
+            false => "the number of blades".to_owned(),
         };
         let of_tone_or_vehicle =
-            if self.vehicle || !(self.gear || self.order) { "the vehicle and its blades" } else { of_tone };
-        advice.replace("the number of blades", of_tone).replace("the vehicle and its blades", of_tone_or_vehicle)
+            if self.vehicle || !(self.gear || self.order) { "the vehicle and its blades" } else { &of_tone };
+        advice.replace("the number of blades", &of_tone).replace("the vehicle and its blades", of_tone_or_vehicle)
     }
 
     /// Advice for each warning about one recording. It asks for one change of a window or a band at most, since that may mend all.
@@ -108,6 +104,11 @@ impl GivenFacts {
         };
         warnings.iter().map(hint).collect()
     }
+}
+
+/// The facts that were given, of these.
+fn named(facts: &[(bool, &'static str)]) -> Vec<&'static str> {
+    facts.iter().filter(|(is_given, _)| *is_given).map(|(_, fact)| *fact).collect()
 }
 
 #[cfg(test)]

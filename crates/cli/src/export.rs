@@ -14,7 +14,7 @@ use hovertone_exchange::{
     updated_model,
 };
 use hovertone_report::{Notice, fixed, printable};
-use hovertone_vehicle::{check_diameter, check_positive, check_range};
+use hovertone_vehicle::{check_diameter, check_positive, check_range, in_list};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -144,13 +144,11 @@ fn say_other_mass(of_model_kg: Option<f64>, of_results_kg: Option<f64>, terminal
 
 /// That comments still have the old number; `None` without such lines.
 fn stale_comments(line_numbers: &[usize]) -> Option<Notice> {
-    let (last, others) = line_numbers.split_last()?;
-    let others: Vec<String> = others.iter().map(usize::to_string).collect();
-    let (lines, hint) = match others.as_slice() {
-        [] => (format!("a comment in line {last} still has"), "correct or remove the comment"),
-        others => {
-            (format!("comments in lines {} and {last} still have", others.join(", ")), "correct or remove the comments")
-        }
+    let numbers: Vec<String> = line_numbers.iter().map(usize::to_string).collect();
+    let (lines, hint) = match &numbers[..] {
+        [] => return None,
+        [only] => (format!("a comment in line {only} still has"), "correct or remove the comment"),
+        _ => (format!("comments in lines {} still have", in_list(&numbers, "and")), "correct or remove the comments"),
     };
     Some(Notice::new(format!("{lines} the old number: --into does not change comments"), hint))
 }

@@ -6,13 +6,14 @@ use crate::inputs::open_stream;
 use crate::log::{THE_LOG, log_failure, loss_notice};
 use crate::recording::Heard;
 use crate::spin_up::names_of;
+use crate::vehicles::names_in_flight_model;
 use hovertone::rotors::{
     FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, labels_from_log, labels_from_spin_up,
 };
 use hovertone::speed::TrackPoint;
 use hovertone_logs::{ColumnNames, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
 use hovertone_report::{Notice, SpeedRecord};
-use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle, flight_presets};
+use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle};
 use std::path::Path;
 
 /// The meaning of the arguments.
@@ -156,7 +157,7 @@ fn contradicted(of_format: &str, said: &str) -> Failure {
 
 /// "one of ardrone, crazyflie": the vehicles whose rotors have known places.
 pub(crate) fn with_known_frame() -> String {
-    format!("one of {}", flight_presets().iter().map(|vehicle| vehicle.id).collect::<Vec<_>>().join(", "))
+    format!("one of {}", names_in_flight_model().join(", "))
 }
 
 /// Positions of the rotors with arms of 1 m: only their proportions matter.

@@ -163,9 +163,7 @@ fn write_signals(
     arguments: &LogArguments,
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
-    let outputs = Outputs::beside([file], arguments.replace.force);
-    outputs.check_name(output, SIGNALS)?;
-    let begun = outputs.create(output)?;
+    let begun = Outputs::beside([file], arguments.replace.force).create_text(output, SIGNALS)?;
     let mut writer = csv::Writer::from_writer(BufWriter::new(begun.handle()?));
     let mut has_header = false;
     let mut row_count = 0_u64;

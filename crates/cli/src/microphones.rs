@@ -7,12 +7,12 @@ use crate::progress::{Progress, Share};
 use crate::recording::{Heard, Hearing, Job};
 use crate::toml_file::{NO_RECORDING, TomlFile};
 use hovertone::rotors::{
-    ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, labels_from_microphones,
+    ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, NotTold, PlacedRotor, labels_from_microphones,
     microphone_lines_from_source,
 };
 use hovertone::speed::TrackPoint;
 use hovertone_media::{OpenOptions, Recording};
-use hovertone_report::{Notice, NoticeKind, counted};
+use hovertone_report::{Notice, NoticeKind};
 use hovertone_vehicle::Vehicle;
 use serde::Deserialize;
 use std::path::Path;
@@ -130,10 +130,7 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
         return Ok(());
     }
     Err(Failure::Usage {
-        what: format!(
-            "the recording has {}, but the number of microphones with a position is {microphones}: the two numbers must be equal",
-            counted(channels, "channel")
-        ),
+        what: NotTold::OtherChannels { channels, microphones }.to_string(),
         hint: "give one [[microphone]] for each channel, in the sequence of the channels; --audio-track N chooses another track of the file"
             .to_owned(),
         path: Some(job.path.clone()),

@@ -45,10 +45,16 @@ impl Outputs {
         self.create_sound(place)
     }
 
-    /// Checks, before any long work, that the name of a file of text promises no other kind of file.
-    pub(crate) fn check_name(&self, place: &Path, kind: TextKind) -> Result<(), Failure> {
+    /// Begins a file of text, whose name must promise no other kind of file.
+    pub(crate) fn create_text(&self, place: &Path, kind: TextKind) -> Result<OutputFile, Failure> {
         self.refuse_recording(place)?;
-        kind.check(place)
+        kind.check(place)?;
+        self.create_sound(place)
+    }
+
+    /// Checks, before any long work, that a file of text may and can be written.
+    pub(crate) fn check_text(&self, place: &Path, kind: TextKind) -> Result<(), Failure> {
+        self.create_text(place, kind).map(drop)
     }
 
     fn refuse_recording(&self, place: &Path) -> Result<(), Failure> {

@@ -56,7 +56,7 @@ impl Progress {
         Self { bar, message, is_single: recording_count == 1, listener: on_progress() }
     }
 
-    /// The part of the bar for one recording.
+    /// The part of the bar for one recording, or for another part of the work.
     pub(crate) fn recording(&self) -> Share<'_> {
         Share { progress: self, steps_done: 0, shown: None }
     }
@@ -66,7 +66,7 @@ impl Progress {
         self.bar.reset();
         self.bar.set_length(STEPS);
         self.bar.set_message(words);
-        Share { progress: self, steps_done: 0, shown: None }
+        self.recording()
     }
 
     /// Replaces the words beside the bar.

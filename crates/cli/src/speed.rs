@@ -126,6 +126,6 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
     let inputs = jobs.iter().map(|job| &job.path).chain(of_flight);
     let outputs = Outputs::beside(inputs, arguments.replace.force);
     let track = arguments.track.clone();
-    track.as_deref().map_or(Ok(()), |track| outputs.check_name(track, TRACK).and_then(|()| outputs.check(track)))?;
+    track.as_deref().map_or(Ok(()), |track| outputs.check_text(track, TRACK))?;
     Ok(Plan { jobs, hearing, track, outputs, labels, microphones })
 }

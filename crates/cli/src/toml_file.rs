@@ -86,19 +86,17 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
         return Failure::Usage { what, hint, path: Some(file.path.to_owned()) };
     };
     let is_of_gear = place.line.trim_start().starts_with("gear");
-    let is_of = |fault: &str| is_of_gear && error.message().starts_with(fault);
-    let (what, hint) = match () {
-        () if is_of("invalid type") => (what, format!("as in {GEAR}; {}", file.see_example)),
+    let (what, hint) = if error.message().starts_with("invalid time") {
         // 8:69 looks like a time
-        () if is_of("invalid time") => {
-            let what = format!("the {} has a gear in another form than TOML needs", file.kind);
-            (what, format!("write {GEAR}; {}", file.see_example))
-        }
-        () if error.message().starts_with("invalid time") => {
-            let what = format!("the {} has a time in another form than TOML needs", file.kind);
-            (what, "write seconds as a number, as in from_s = 2.0".to_owned())
-        }
-        () => (what, hint),
+        let (thing, hint) = match is_of_gear {
+            true => ("a gear", format!("write {GEAR}; {}", file.see_example)),
+            false => ("a time", "write seconds as a number, as in from_s = 2.0".to_owned()),
+        };
+        (format!("the {} has {thing} in another form than TOML needs", file.kind), hint)
+    } else if is_of_gear && error.message().starts_with("invalid type") {
+        (what, format!("as in {GEAR}; {}", file.see_example))
+    } else {
+        (what, hint)
     };
     let what = format!("{what}\n{}", place.underlined());
     let path = PathBuf::from(format!("{}:{}:{}", file.path.display(), place.line_number, place.column));

@@ -4,6 +4,7 @@ use crate::args::ExportArguments;
 use crate::terminal::Terminal;
 use hovertone_exchange::{IdentifiedRotor, ModelError, SimulatorFormat, export_text};
 use hovertone_report::Notice;
+use hovertone_vehicle::in_list;
 
 /// A fact that a flag gives.
 pub(crate) struct Given {
@@ -105,12 +106,10 @@ pub(crate) fn no_place_in(format: SimulatorFormat, given: &Given, rotor: &Identi
     }
     let all = SimulatorFormat::ALL.into_iter().filter(|format| given.is_in(*format, rotor));
     let names: Vec<&str> = all.map(SimulatorFormat::name).collect();
-    let hint = match names.split_last() {
-        None => "leave the flag out".to_owned(),
-        Some((only, [])) => format!("leave the flag out, or give --to {only}: this format has a number for it"),
-        Some((last, others)) => {
-            format!("leave the flag out, or choose a format with a number for it: --to {} or {last}", others.join(", "))
-        }
+    let hint = match names[..] {
+        [] => "leave the flag out".to_owned(),
+        [only] => format!("leave the flag out, or give --to {only}: this format has a number for it"),
+        _ => format!("leave the flag out, or choose a format with a number for it: --to {}", in_list(&names, "or")),
     };
     Notice::new(format!("the format {} has no number for it", format.name()), hint)
 }

@@ -72,9 +72,14 @@ pub(crate) fn known_vehicles() -> Result<Vec<Vehicle>, Failure> {
     Ok(presets().iter().chain(own_vehicles()?).cloned().collect())
 }
 
+/// Names of the vehicles with a flight model: they alone have rotors with known places.
+pub(crate) fn names_in_flight_model() -> Vec<&'static str> {
+    flight_presets().iter().map(|vehicle| vehicle.id).collect()
+}
+
 /// What is wrong with a name that the flight model does not know, and the hint.
 pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
-    let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
+    let known = names_in_flight_model();
     let list = known.join(", ");
     if preset(name).is_ok() {
         let hint = format!("this command needs a vehicle with a flight model: {list}");

@@ -12,7 +12,7 @@ use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::{config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
 use crate::which_speed::which_is_right;
-use hovertone::rotors::{LoggedSpeeds, verification_from_log};
+use hovertone::rotors::{LoggedSpeeds, NotVerified, Verification, verification_from_log};
 use hovertone::speed::{SpeedEstimate, TrackPoint};
 use hovertone_figures::{DOTS_PER_INCH, verification_figure};
 use hovertone_report::{
@@ -64,9 +64,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     }
     let logged = LoggedSpeeds { time_s: &speeds.time_s, names: &speeds.names, speeds_rev_s: &speeds.values };
     let offsets_s = arguments.log_offset_s.map(|(low_s, high_s)| [low_s, high_s]);
-    let tracks = tracks_of(record);
-    let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
-    let verification = verification_from_log(&tracks, logged, offsets_s)
+    let verification = verification_of(record, logged, offsets_s)
         .map_err(|reason| Failure::failed(reason.to_string(), reason.hint(), log))?;
     let passes = verification.passes();
     if let Some(notice) = small_plus_minus(&verification) {
@@ -103,16 +101,23 @@ impl<'a> FigureFile<'a> {
     }
 }
 
-/// The tracks of the separated rotors, else of the one tone. That may be the tone of any of several rotors, so that each of its points has the
-/// uncertainty of their spread too, as the mean has.
-pub(crate) fn tracks_of(record: &SpeedRecord) -> Vec<Vec<TrackPoint>> {
-    if !record.rotors().is_empty() {
-        return record.rotors().iter().map(|rotor| rotor.track.clone()).collect();
+/// Compares a recording with a log: the tracks of the separated rotors, else of the one tone. That may be the tone of any of several rotors, so that
+/// each of its points has the uncertainty of their spread too, as the mean has.
+pub(crate) fn verification_of(
+    record: &SpeedRecord,
+    logged: LoggedSpeeds<'_>,
+    offsets_s: Option<[f64; 2]>,
+) -> Result<Verification, NotVerified> {
+    let separated: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
+    if !separated.is_empty() {
+        return verification_from_log(&separated, logged, offsets_s);
     }
     let spread_share = record.speed().map_or(0.0, SpeedEstimate::rotors_std_share);
     let with_spread = |point: &TrackPoint| TrackPoint {
         std_uncertainty_rev_s: point.std_uncertainty_rev_s.hypot(spread_share * point.speed_rev_s),
         ..*point
     };
-    record.tone().iter().map(|tone| tone.track.iter().map(with_spread).collect()).collect()
+    let of_tone: Option<Vec<TrackPoint>> = record.tone().map(|tone| tone.track.iter().map(with_spread).collect());
+    let of_tone: Vec<&[TrackPoint]> = of_tone.iter().map(Vec::as_slice).collect();
+    verification_from_log(&of_tone, logged, offsets_s)
 }

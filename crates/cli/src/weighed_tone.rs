@@ -53,10 +53,8 @@ pub(crate) fn tone_of_constant_in_words(
     typed: &ToneArguments,
     results: Option<&IdentifiedRotor>,
 ) -> Result<Option<Notice>, Failure> {
-    let Some(heard) = results.and_then(|rotor| rotor.tone).filter(|_| tone_of(typed).is_ok_and(|tone| tone.is_none()))
-    else {
-        return Ok(None);
-    };
+    let tone = results.and_then(|rotor| rotor.tone);
+    let Some(heard) = tone.filter(|_| tone_of(typed).is_ok_and(|typed| typed.is_none())) else { return Ok(None) };
     Ok(Some(Notice::new(
         format!(
             "hovertone listens for the tone that the recordings of the constant have: it sounds {}",

@@ -2,6 +2,7 @@
 
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
+use hovertone_vehicle::in_list;
 
 /// "count the blades and give --blades N", "give --mass-kg and --rotors".
 pub(crate) fn which_is_right(config: &Config, discovery: Option<&Discovery>) -> String {
@@ -16,10 +17,9 @@ pub(crate) fn which_is_right(config: &Config, discovery: Option<&Discovery>) -> 
         ("--rotors", known.rotor_count.is_some()),
     ];
     let missing: Vec<&str> = facts.into_iter().filter(|(_, is_given)| !is_given).map(|(flag, _)| flag).collect();
-    match missing.split_last() {
-        None => "check the given facts about the vehicle, or place the microphone nearer".to_owned(),
-        Some((last, [])) => format!("give {last}"),
-        Some((last, others)) => format!("give {} and {last}", others.join(", ")),
+    match missing.is_empty() {
+        true => "check the given facts about the vehicle, or place the microphone nearer".to_owned(),
+        false => format!("give {}", in_list(&missing, "and")),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::number::significant;
 use crate::recording::{Answer, SpeedRecord};
 use hovertone_analysis::{GivenFacts, NoTone, Outcome, Reading, SpeedAnalysis};
-use hovertone_vehicle::{BLADES_MAX, THRUST_COEFFICIENT};
+use hovertone_vehicle::{BLADES_MAX, THRUST_COEFFICIENT, in_list};
 
 const SEVERAL_SPEEDS: &str = "several rotor speeds explain this sound";
 
@@ -72,7 +72,7 @@ impl SpeedRecord {
             });
         }
         let (given, missing) = (self.given_facts(), self.missing_facts());
-        let of_tone = in_list(&of_tone(given));
+        let of_tone = or_given_facts(&of_tone(given));
         // a vehicle with a mass is in flight
         if self.is_one_rotor() && !self.is_known("/known/mass_kg") {
             let band = if given.band { "a narrower --band" } else { "--band LOW:HIGH" };
@@ -107,7 +107,7 @@ impl SpeedRecord {
         facts.extend(given.diameter.then_some(DIAMETER));
         facts.extend(given.mass.then_some(MASS));
         facts.extend((!given.vehicle && self.is_known("/known/rotor_count")).then_some(ROTORS));
-        in_list(&facts)
+        or_given_facts(&facts)
     }
 
     /// That no gear mesh is heard, where that is the tone to follow and nothing else sounds like a rotor.
@@ -143,7 +143,7 @@ impl SpeedRecord {
             facts.iter().filter(|(place, _)| !self.is_known(place)).map(|(_, words)| *words).collect();
         let missing = if missing.is_empty() { facts.map(|(_, words)| words).to_vec() } else { missing };
         let they_rule = if missing.len() == 1 { "it rules" } else { "they rule" };
-        format!("{}: {they_rule} out speeds that cannot carry the vehicle", in_list(&missing))
+        format!("{}: {they_rule} out speeds that cannot carry the vehicle", in_list(&missing, "and"))
     }
 
     /// Whether diameter, mass and number of rotors are known, so that each possible speed has a thrust coefficient.
@@ -164,10 +164,6 @@ fn of_tone(given: GivenFacts) -> Vec<&'static str> {
 }
 
 /// "the mass, the diameter and the number of rotors"; "the given facts" for none.
-fn in_list(facts: &[&str]) -> String {
-    match facts.split_last() {
-        None => "the given facts".to_owned(),
-        Some((only, [])) => (*only).to_owned(),
-        Some((last, others)) => format!("{} and {last}", others.join(", ")),
-    }
+fn or_given_facts(facts: &[&str]) -> String {
+    if facts.is_empty() { "the given facts".to_owned() } else { in_list(facts, "and") }
 }

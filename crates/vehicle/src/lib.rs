@@ -11,6 +11,7 @@ mod frame;
 mod known_rotor;
 mod limits;
 mod line_levels;
+mod list;
 mod number;
 mod own_vehicle;
 mod presets;
@@ -34,6 +35,7 @@ pub use limits::{
     check_not_negative, check_positive, check_range, is_swamped, loudest_rotor_share,
 };
 pub use line_levels::LineLevels;
+pub use list::in_list;
 pub use number::number_in_words;
 pub use own_vehicle::{OwnVehicle, OwnVehicleError};
 pub use presets::{find_preset, presets};

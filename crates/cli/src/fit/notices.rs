@@ -21,25 +21,23 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
             | ThrustWarning::LoadsDisagree { are_rows: true, .. }
             | ThrustWarning::RowsDoNotFit { .. }
     );
-    match stated {
-        _ if matches!(warning, ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. })) => {
-            Notice::new(
-                warning.to_string(),
-                "check the speeds, the forces and the uncertainties that you stated, and measure more rows",
-            )
-        }
-        _ if matches!(warning, ThrustWarning::NarrowLoadRange(_)) => Notice::new(
+    match warning {
+        ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => Notice::new(
+            warning.to_string(),
+            "check the speeds, the forces and the uncertainties that you stated, and measure more rows",
+        ),
+        ThrustWarning::NarrowLoadRange(_) => Notice::new(
             warning.to_string(),
             "C_f is still valid near these forces; to test the law, measure a wider range of forces",
         ),
         // a table has no recordings, and no tone
-        _ if matches!(warning, ThrustWarning::ConstantsSplit) => Notice::new(
+        ThrustWarning::ConstantsSplit => Notice::new(
             warning.to_string(),
             "do not use this constant: check the speeds, the forces and their units in all rows, and the number of \
              rotors; then measure more rows",
         ),
-        columns if is_of_rows && !columns.is_empty() => {
-            Notice::new(warning.to_string(), format!("{}; or {} is too small", warning.hint(), columns.join(" or ")))
+        _ if is_of_rows && !stated.is_empty() => {
+            Notice::new(warning.to_string(), format!("{}; or {} is too small", warning.hint(), stated.join(" or ")))
         }
         _ => Notice::from(warning),
     }

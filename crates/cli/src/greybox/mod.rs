@@ -130,8 +130,8 @@ pub(crate) fn record_of(
 fn checked_outputs(arguments: &GreyBoxArguments, outputs: &Outputs) -> Result<Option<FigureKind>, Failure> {
     let kind = |place: &PathBuf| FigureKind::of(place, "use --figure check.png or --figure check.svg");
     let kind = arguments.figure.as_ref().map(kind).transpose()?;
-    arguments.scenario.as_deref().map_or(Ok(()), |place| outputs.check_name(place, SCENARIO))?;
-    arguments.figure.iter().chain(&arguments.scenario).try_for_each(|place| outputs.check(place))?;
+    arguments.scenario.as_deref().map_or(Ok(()), |place| outputs.check_text(place, SCENARIO))?;
+    arguments.figure.as_deref().map_or(Ok(()), |place| outputs.check(place))?;
     Ok(kind)
 }
 

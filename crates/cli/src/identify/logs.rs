@@ -7,9 +7,8 @@ use crate::labels::{labels_of_record, logs_of_motors};
 use crate::log::{column_names, loss_notice};
 use crate::motor::{flight_of, motors_of_log};
 use crate::recording::Job;
-use crate::verify::tracks_of;
-use hovertone::rotors::{FlightLog, LabelsConfig, LoggedSpeeds, NotVerified, verification_from_log};
-use hovertone::speed::TrackPoint;
+use crate::verify::verification_of;
+use hovertone::rotors::{FlightLog, LabelsConfig, LoggedSpeeds, NotVerified};
 use hovertone_logs::LoggedFlight;
 use hovertone_report::{FlightLogRecord, Notice, SpeedRecord};
 
@@ -47,9 +46,7 @@ impl FlownLog {
             Some(speeds) if has_tone => {
                 let logged =
                     LoggedSpeeds { time_s: &speeds.time_s, names: &speeds.names, speeds_rev_s: &speeds.values };
-                let tracks = tracks_of(record);
-                let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
-                verification_from_log(&tracks, logged, None).map(Some)
+                verification_of(record, logged, None).map(Some)
             }
             _ => Ok(None),
         };

@@ -28,9 +28,7 @@ const EXPERIMENT: TextKind =
 /// Asks for what the flags leave out, and writes the file.
 pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let nothing: [&Path; 0] = [];
-    let outputs = Outputs::beside(nothing, arguments.replace.force);
-    outputs.check_name(&arguments.output, EXPERIMENT)?;
-    outputs.check(&arguments.output)?;
+    Outputs::beside(nothing, arguments.replace.force).check_text(&arguments.output, EXPERIMENT)?;
     let vehicle = arguments.draft.vehicle.as_deref().map(preset).transpose()?;
     let draft = with_recordings(Draft::from_arguments(&arguments.draft, vehicle)?)?;
     let can_ask = io::stdin().is_terminal() && io::stderr().is_terminal();

@@ -1,6 +1,7 @@
 //! Advice about live sound that names the flags which were given.
 
 use crate::args::{KnownArguments, ToneArguments};
+use hovertone_vehicle::in_list;
 
 /// Words before "the given facts" that make sense before flags too.
 const BEFORE_FACTS: [&str; 4] = ["in place of", "check", "fits", "contradicts"];
@@ -26,11 +27,7 @@ impl Advice {
             known.mass_kg.map(|_| "--mass-kg".to_owned()),
         ];
         let flags: Vec<String> = flags.into_iter().flatten().collect();
-        let given = match flags.split_last() {
-            None => "the given facts".to_owned(),
-            Some((only, [])) => only.clone(),
-            Some((last, others)) => format!("{} and {last}", others.join(", ")),
-        };
+        let given = if flags.is_empty() { "the given facts".to_owned() } else { in_list(&flags, "and") };
         Self { which_is_right, given }
     }
 

@@ -57,52 +57,57 @@ pub(super) fn missing_of(control: &LoggedControl, format: LogFormat) -> Vec<Miss
             (true, false) => "its measured value",
             (false, false) => "its command and its measured value",
         };
-        let hint = match (format, command.is_none()) {
-            (LogFormat::Ulog, true) => {
-                "let PX4 log your sticks (the topic manual_control_setpoint), and fly with them in Altitude mode"
-            }
-            (LogFormat::Ulog, false) => measured_hint(
-                control_loop,
-                [
-                    "let PX4 log the topic vehicle_attitude",
-                    "let PX4 log the topic vehicle_angular_velocity",
-                    "let PX4 log the topic vehicle_local_position",
-                ],
-            ),
-            (LogFormat::DataFlash, true) => {
-                "let ArduPilot log your sticks (the message RCIN: RC Input in LOG_BITMASK), and fly with them in AltHold mode"
-            }
-            (LogFormat::DataFlash, false) => measured_hint(
-                control_loop,
-                [
-                    "let ArduPilot log the message ATT",
-                    "let ArduPilot log the message IMU",
-                    "let ArduPilot log the message XKF1 (of the EKF)",
-                ],
-            ),
-            (LogFormat::Blackbox, true) => {
-                "let the blackbox log your sticks (rcCommand), and fly in angle mode (for climb: in altitude hold of INAV)"
-            }
-            (LogFormat::Blackbox, false) => measured_hint(
-                control_loop,
-                [
-                    "let the blackbox log the attitude: INAV has it, Betaflight does not",
-                    "let the blackbox log the gyro (gyroADC)",
-                    "let the blackbox log the vertical speed (navVel): INAV has it, Betaflight does not",
-                ],
-            ),
-            (LogFormat::Csv | LogFormat::RcBenchmark, true) if is_measured => csv_command(control_loop),
-            (LogFormat::Csv | LogFormat::RcBenchmark, true) => csv_both(control_loop),
-            (LogFormat::Csv | LogFormat::RcBenchmark, false) => measured_hint(
-                control_loop,
-                ["log a column roll_deg or pitch_deg", "log a column yaw_rate_rad_s", "log a column velocity_z_m_s"],
-            ),
-        };
+        let Advice { of_command, of_measured } = advice(format, control_loop, is_measured);
+        let hint = if command.is_none() { of_command } else { measured_hint(control_loop, of_measured) };
         Some(MissingControl { control_loop, what, hint })
     };
     let is_new =
         |missing: &MissingControl| control.missing.iter().all(|known| known.control_loop != missing.control_loop);
     loops.filter_map(missing).filter(is_new).collect()
+}
+
+/// What to log.
+struct Advice {
+    of_command: &'static str,
+    /// Of attitude, yaw rate and vertical speed.
+    of_measured: [&'static str; 3],
+}
+
+fn advice(format: LogFormat, control_loop: ControlLoop, is_measured: bool) -> Advice {
+    match format {
+        LogFormat::Ulog => Advice {
+            of_command: "let PX4 log your sticks (the topic manual_control_setpoint), and fly with them in Altitude mode",
+            of_measured: [
+                "let PX4 log the topic vehicle_attitude",
+                "let PX4 log the topic vehicle_angular_velocity",
+                "let PX4 log the topic vehicle_local_position",
+            ],
+        },
+        LogFormat::DataFlash => Advice {
+            of_command: "let ArduPilot log your sticks (the message RCIN: RC Input in LOG_BITMASK), and fly with them in AltHold mode",
+            of_measured: [
+                "let ArduPilot log the message ATT",
+                "let ArduPilot log the message IMU",
+                "let ArduPilot log the message XKF1 (of the EKF)",
+            ],
+        },
+        LogFormat::Blackbox => Advice {
+            of_command: "let the blackbox log your sticks (rcCommand), and fly in angle mode (for climb: in altitude hold of INAV)",
+            of_measured: [
+                "let the blackbox log the attitude: INAV has it, Betaflight does not",
+                "let the blackbox log the gyro (gyroADC)",
+                "let the blackbox log the vertical speed (navVel): INAV has it, Betaflight does not",
+            ],
+        },
+        LogFormat::Csv | LogFormat::RcBenchmark => Advice {
+            of_command: if is_measured { csv_command(control_loop) } else { csv_both(control_loop) },
+            of_measured: [
+                "log a column roll_deg or pitch_deg",
+                "log a column yaw_rate_rad_s",
+                "log a column velocity_z_m_s",
+            ],
+        },
+    }
 }
 
 /// Of attitude, yaw rate and vertical speed the one that a loop needs.
