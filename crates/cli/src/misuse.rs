@@ -182,13 +182,6 @@ impl Misuse {
                 };
                 return Self { what, hint: Some(hint) };
             }
-            Some("vehicles") => {
-                let hint = Some("write `hovertone vehicles` alone".to_owned());
-                return Self {
-                    what: format!("\"{name}\": `hovertone vehicles` takes no name, because it lists all vehicles"),
-                    hint,
-                };
-            }
             _ => {}
         }
         Self { what: format!("\"{name}\" has no place in this command"), hint: place_meant(name, words) }

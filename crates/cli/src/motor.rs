@@ -132,6 +132,7 @@ impl<'a> Plan<'a> {
         let mut sound = MotorSound {
             has_commands: commands.is_some(),
             blades: self.arguments.tone.blades,
+            order: self.arguments.tone.order,
             ..MotorSound::default()
         };
         let (mut motors, mut rows, mut misaligned) = (Vec::new(), Vec::new(), None);

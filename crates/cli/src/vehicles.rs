@@ -16,11 +16,14 @@ pub(crate) fn run(arguments: &VehiclesArguments, terminal: &mut Terminal) -> Res
     if let Some(file) = &arguments.add {
         return add(file, terminal);
     }
-    let own = own_vehicles()?;
-    if arguments.json {
-        terminal.data(&vehicles_json(&known_vehicles()?).map_err(Failure::internal)?)?;
-        return Ok(Ending::Done);
+    if !arguments.names.is_empty() {
+        let named: Vec<Vehicle> = arguments.names.iter().map(|name| named(name)).collect::<Result<_, _>>()?;
+        return show(&named, arguments.json, terminal);
     }
+    if arguments.json {
+        return show(&known_vehicles()?, true, terminal);
+    }
+    let own = own_vehicles()?;
     terminal.text(&vehicles_text(presets(), terminal.width()))?;
     match place().filter(|_| !own.is_empty()) {
         Some(place) => {
@@ -30,6 +33,25 @@ pub(crate) fn run(arguments: &VehiclesArguments, terminal: &mut Terminal) -> Res
         None => terminal.text("Your own: none; `hovertone vehicles --help` shows how to add one\n")?,
     }
     Ok(Ending::Done)
+}
+
+/// Prints some vehicles.
+fn show(vehicles: &[Vehicle], is_json: bool, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    if is_json {
+        terminal.data(&vehicles_json(vehicles).map_err(Failure::internal)?)?;
+    } else {
+        terminal.text(&vehicles_text(vehicles, terminal.width()))?;
+    }
+    Ok(Ending::Done)
+}
+
+/// The vehicle of a name. The name of a file is a file to add.
+fn named(name: &str) -> Result<Vehicle, Failure> {
+    if name.ends_with(".toml") {
+        let hint = format!("to add the vehicles of this file to your own, write --add {name}");
+        return Err(Failure::usage(format!("{name}: this is a file, but the name of a vehicle is needed"), hint));
+    }
+    preset(name).cloned()
 }
 
 /// Adds the vehicles of a file to the user's own. The text is kept as it is, with its comments.

@@ -50,6 +50,19 @@ pub struct MotorSound {
     pub has_commands: bool,
     /// The number of blades that was given.
     pub blades: Option<u32>,
+    /// The order of the tone that was given.
+    pub order: Option<f64>,
+}
+
+impl MotorSound {
+    /// The number that says which tone is followed, with its flag.
+    fn given_number(&self) -> Option<String> {
+        match (self.blades, self.order) {
+            (Some(blades), _) => Some(format!("the number of blades (--blades {blades})")),
+            (None, Some(order)) => Some(format!("the order of the tone (--order {order})")),
+            (None, None) => None,
+        }
+    }
 }
 
 /// A log or a recording, and its motors.
@@ -89,14 +102,17 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     if first.model.is_too_slow {
         text += "the log has too few rows for a time constant: a motor reaches its speed within 300 ms, and 3 rows or more must lie in this time\n";
     } else if !has_steps {
-        text += "no step: the speed never changes from one steady value to another\n";
+        text += match record.source {
+            MotorSource::Log => "no step: the speed never changes from one steady value to another\n",
+            MotorSource::Sound(_) => {
+                "no step is heard: the tone that is followed never changes from one steady value to another\n"
+            }
+        };
     }
-    if let MotorSource::Sound(MotorSound { blades: Some(blades), .. }) = record.source
-        && !record.has_time_constant()
+    if let MotorSource::Sound(sound) = &record.source
+        && let Some(number) = sound.given_number().filter(|_| !record.has_time_constant())
     {
-        text += &format!(
-            "check the number of blades (--blades {blades}): with a wrong number, hovertone may follow another tone and miss steps\n"
-        );
+        text += &format!("check {number}: with a wrong number, hovertone may follow another tone and miss steps\n");
     }
     if has_steps {
         text += &format!("\n{}", table_text(&steps_table(record), width));

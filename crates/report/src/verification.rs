@@ -12,8 +12,8 @@ use serde::Serialize;
 /// Millionths of a share.
 pub(crate) const PPM: f64 = 1e6;
 
-/// Why equal means of steady speeds do not show that the log is of this flight.
-const CLOCKS_NOT_COMPARED: &str = "the speeds change too little to compare the clocks";
+/// Why equal means do not show that the log is of this flight: the speeds are steady, or the heard ones do not follow quick changes.
+const OFFSET_NOT_KNOWN: &str = "the offset of the clocks is not known";
 
 /// A verification with the names of its files.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +76,7 @@ fn verdict_in_words(found: &Verification) -> String {
     if let Some(undecided) = undecided(found) {
         let Notice { text, hint, .. } = undecided.notice(found);
         let limits = match undecided {
-            Undecided::SteadySpeeds => {
+            Undecided::UnknownOffset => {
                 "; or, if you know the offset of the clocks, give it with --log-offset-s LOW:HIGH"
             }
             _ => "",
@@ -144,8 +144,8 @@ enum Undecided {
     OffsetOutside(f64),
     /// Too few logged speeds lie within the ± of the heard ones.
     FewWithin,
-    /// The speeds are too steady to compare the clocks.
-    SteadySpeeds,
+    /// The speeds are too steady to show the offset of the clocks, or the heard ones do not follow quick changes.
+    UnknownOffset,
 }
 
 /// Why the check is not decided, although the means are equal; `None` where it is decided.
@@ -157,7 +157,7 @@ fn undecided(found: &Verification) -> Option<Undecided> {
     Some(match found.better_offset_s {
         Some(offset_s) => Undecided::OffsetOutside(offset_s),
         None if is_clock_known || found.agreement == Agreement::Scattered => Undecided::FewWithin,
-        None => Undecided::SteadySpeeds,
+        None => Undecided::UnknownOffset,
     })
 }
 
@@ -179,11 +179,11 @@ impl Undecided {
                 format!("{means} {few}"),
                 "check first that the log is of this flight, and then the offset of the clocks; if both are right, do not rely on the ± of the speed at a single moment",
             ),
-            Self::SteadySpeeds => {
+            Self::UnknownOffset => {
                 let also = if found.coverage() < COVERAGE_OF_HALF { format!(". Also, {few}") } else { String::new() };
                 Notice::new(
-                    format!("{means} {CLOCKS_NOT_COMPARED}. So the log may be of another flight{also}"),
-                    "record a flight with a few quick climbs, which change the speeds",
+                    format!("{means} {OFFSET_NOT_KNOWN}. So the log may be of another flight{also}"),
+                    "record a flight with a few climbs that last a second or longer: they change all speeds at once",
                 )
             }
         }

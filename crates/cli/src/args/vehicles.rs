@@ -20,12 +20,16 @@ on the command line, and preset = \"my-drone\" in an experiment file.
 
 Examples:
   hovertone vehicles
+  hovertone vehicles ardrone
   hovertone vehicles --add my-drone.toml";
 
 /// The vehicles that hovertone knows, with the source of every number; and your own
 #[derive(Args, Debug)]
 #[command(after_help = VEHICLES_EXAMPLES)]
 pub(crate) struct VehiclesArguments {
+    /// Show these vehicles alone
+    #[arg(value_name = "NAME", conflicts_with = "add")]
+    pub(crate) names: Vec<String>,
     /// Add the vehicles of this file to your own; - is stdin
     #[arg(long, value_name = "FILE.toml", conflicts_with = "json", value_parser = typed_path())]
     pub(crate) add: Option<PathBuf>,

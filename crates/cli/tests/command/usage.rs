@@ -148,3 +148,19 @@ fn vehicles_are_listed_with_their_sources() {
         serde_json::from_str(&hovertone(&["vehicles", "--json"]).ends_with(0).stdout).unwrap();
     assert!(json.as_array().unwrap().iter().any(|vehicle| vehicle["id"] == "ardrone"));
 }
+
+#[test]
+fn one_vehicle_is_shown_by_its_name() {
+    let shown = hovertone(&["vehicles", "mambo", "ardrone"]).ends_with(0).stdout;
+    assert!(shown.starts_with("mambo ") && shown.contains("\nardrone ") && !shown.contains("crazyflie"), "{shown}");
+    let json: serde_json::Value =
+        serde_json::from_str(&hovertone(&["vehicles", "mambo", "--json"]).ends_with(0).stdout).unwrap();
+    assert!(json.as_array().unwrap().len() == 1 && json[0]["id"] == "mambo", "{json}");
+    for (name, words) in [
+        ("mamba", ["there is no vehicle \"mamba\"", "did you mean \"mambo\"?"]),
+        ("mine.toml", ["mine.toml: this is a file", "write --add mine.toml"]),
+    ] {
+        let run = hovertone(&["vehicles", name]).ends_with(2);
+        words.iter().for_each(|words| assert!(run.stderr.contains(words), "{}", run.stderr));
+    }
+}
