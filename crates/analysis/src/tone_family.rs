@@ -79,13 +79,14 @@ impl ToneFamily {
         pairs.into_iter().any(|(a, b)| (a / b - 1.0).abs() < SAME_VEHICLE_SHARE)
     }
 
-    /// Whether this is the gear mesh of the rotors of another family, or one of its harmonics. Only where the gear is known.
-    pub fn is_gear_mesh_of(&self, rotor: &Self) -> bool {
-        let mesh_hz = |reading: &Reading| Some(f64::from(reading.meaning.gear()?.wheel) * reading.speed.rev_s());
-        rotor.readings.first().and_then(mesh_hz).is_some_and(|mesh_hz| {
-            let ratio = self.fundamental_hz / mesh_hz;
-            ratio > 0.5 && (ratio / ratio.round() - 1.0).abs() < SAME_MESH_SHARE
-        })
+    /// The frequency of the gear mesh of the rotors of another family, or of its harmonic, if this family is that. The speed of these rotors tells
+    /// it better than the lines of the mesh, which lie apart. Only where the gear is known.
+    pub fn gear_mesh_hz_of(&self, rotor: &Self) -> Option<f64> {
+        let reading = rotor.readings.first()?;
+        let mesh_hz = f64::from(reading.meaning.gear()?.wheel) * reading.speed.rev_s();
+        let ratio = self.fundamental_hz / mesh_hz;
+        let is_mesh = ratio > 0.5 && (ratio / ratio.round() - 1.0).abs() < SAME_MESH_SHARE;
+        is_mesh.then(|| ratio.round() * mesh_hz)
     }
 }
 

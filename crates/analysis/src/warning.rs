@@ -117,11 +117,13 @@ impl Warning {
         matches!(self, Self::ManyGaps { gap_share } if 1.0 - gap_share < HEARD_SHARE_MIN)
     }
 
-    /// Whether another warning about the same recording tells it already: one for each harmonic would say the same several times.
+    /// Whether another warning about the same recording makes it needless: one for each harmonic would say the same several times.
     pub fn is_told_by(&self, others: &[Self]) -> bool {
         others.iter().any(|other| match (self, other) {
             (Self::RidgeOnBandEdge { harmonic, .. }, Self::RidgeOnBandEdge { harmonic: lower, .. }) => lower < harmonic,
             (Self::FewHarmonicsAgree { used, of }, Self::HarmonicLeftOut { harmonic: 1, .. }) => 2 * used >= *of,
+            // advice about a tone that is probably the wrong one does not help
+            (_, Self::FitsElsewhere(_)) => self.is_about_followed_tone(),
             _ => false,
         })
     }
@@ -150,9 +152,7 @@ impl Warning {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::RidgeOnBandEdge { .. } => "check the number of blades",
-            Self::HarmonicLeftOut { harmonic: 1, .. } => {
-                "the speed comes from the multiples of the tone (its harmonics); if it looks wrong, check the number of blades"
-            }
+            Self::HarmonicLeftOut { harmonic: 1, .. } => "if the speed looks wrong, check the number of blades",
             Self::HarmonicLeftOut { .. } => "you need to do nothing: the speed comes from the other harmonics",
             Self::BandCutByCodec { .. } => {
                 "to use the higher harmonics too, record without compression or at a higher bit rate"
@@ -177,18 +177,18 @@ impl Warning {
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
-                "give the number of rotors with --rotors: if only one turns, the ± becomes smaller; to separate several, place the microphone \
-                nearer and record without compression"
+                "if only one rotor turns, give --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer and record \
+                without compression"
             }
             Self::RotorsNotApart { has_mean: false, .. } => {
                 "to separate them and get a smaller ±, place the microphone nearer and record without compression; rotors at equal speeds \
                 cannot be separated"
             }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
+                "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; rotors at nearly equal speeds cannot be separated; if their speeds differ, a nearer microphone may help"
             }
             Self::RotorCountUnknown { .. } => {
-                "give the number of rotors with --rotors: if only one turns, the ± becomes smaller"
+                "if only one rotor turns, give --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer"
             }
             Self::OtherRotorsHeard { .. } => {
                 "if more rotors turn, give their number with --rotors; if not, record away from other machines"
@@ -220,7 +220,7 @@ impl fmt::Display for Warning {
                     let show = if *used == 1 { "shows" } else { "show" };
                     write!(f, "only {used} of {of} harmonics (multiples of the tone) {show} the same speed")
                 } else {
-                    f.write_str("the lowest frequency of the tone shows another speed than its multiples")
+                    f.write_str("the tone itself shows another speed than its multiples (its harmonics)")
                 }
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
@@ -245,7 +245,7 @@ impl fmt::Display for Warning {
                 if self.is_hardly_heard() { f.write_str(": the speed may come from another sound") } else { Ok(()) }
             }
             Self::FewFrames { sample_s, needed_s: Some(needed_s), .. } => {
-                write!(f, "only {sample_s:.1} s of the sound are used, and hovertone needs {needed_s:.1} s or more")
+                write!(f, "only {sample_s:.1} s of the sound are used, and a reliable ± needs {needed_s:.1} s or more")
             }
             Self::FewFrames { frame_count, sample_s, .. } => {
                 write!(
@@ -284,7 +284,7 @@ impl fmt::Display for Warning {
 /// A harmonic that is not used, with the reason.
 fn left_out_text(harmonic: u32, reason: &str) -> String {
     match harmonic {
-        1 => format!("the lowest frequency of the tone is not used: {reason}"),
+        1 => format!("only the multiples of the tone (its harmonics) are used, and not the tone itself: {reason}"),
         _ => format!("harmonic {harmonic} of the tone (its frequency times {harmonic}) is not used: {reason}"),
     }
 }
@@ -354,7 +354,7 @@ mod tests {
         assert_eq!(edge(1).to_string(), expected);
         assert_eq!(
             all[0].to_string(),
-            "the lowest frequency of the tone is not used: it is 2.0 % higher than its multiples show, so it may be \
+            "only the multiples of the tone (its harmonics) are used, and not the tone itself: it is 2.0 % higher than its multiples show, so it may be \
             another sound"
         );
     }

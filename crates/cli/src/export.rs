@@ -217,7 +217,7 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
             );
             return Err(Failure::usage(
                 what,
-                "check --diameter-m: it is the diameter from tip to tip, in m, or with a unit, as in 8in",
+                "check --diameter-m: it is the diameter from tip to tip, in m, or with a unit, as in 24cm or 8in",
             ));
         }
     }

@@ -47,6 +47,9 @@ pub(crate) fn flag_meant(name: &str, words: &[OsString]) -> Option<String> {
         return Some("the results go to stdout: write > and the name of a file behind the command".to_owned());
     }
     let command = typed_command(words)?;
+    if ["--figure", "--plot", "--picture"].contains(&name) && ["speed", "tones"].contains(&command.get_name()) {
+        return Some("`hovertone spectrogram` draws a recording with the tracks of its rotors".to_owned());
+    }
     let rests = words.iter().filter_map(|word| word.to_str()?.strip_prefix('-'));
     let is_meant = |rest: &&str| {
         let flag = rest.split('=').next().unwrap_or_default();
@@ -115,6 +118,7 @@ mod tests {
         assert_eq!(meant("-b", "hovertone speed -blades=2 a.wav"), "a long flag has two dashes: write --blades=2");
         assert_eq!(meant("-x", "hovertone speed -x a.wav"), "");
         assert!(meant("-o", "hovertone speed a.wav -o x.json").starts_with("the results go to stdout"));
+        assert!(meant("--figure", "hovertone speed a.wav --figure x.png").starts_with("`hovertone spectrogram` draws"));
         let place = |name: &str, line: &str| place_meant(name, &words(line)).unwrap_or_default();
         assert_eq!(place("x.png", "hovertone spectrogram a.wav x.png"), "write -o x.png");
         assert_eq!(place("gazebo", "hovertone export r.json gazebo"), "write --to gazebo");

@@ -17,7 +17,7 @@ const UNITS: [(&str, &str); 15] = [
     ("_share", "as a share: 0.03 is 3 %"),
     ("_m_s2", "in m/s²"),
     ("_n_s2", "in N/(rad/s)²"),
-    ("_m", "in m, or with its unit, as in 8in"),
+    ("_m", "in m, or with its unit, as in 24cm or 8in"),
     ("_s", "in seconds"),
     ("_c", "in degrees Celsius"),
 ];
@@ -42,7 +42,7 @@ mod tests {
         for (name, advice) in [
             ("window_s", "correct --window-s, in seconds"),
             ("rotors", "correct --rotors"),
-            ("diameter_m", "correct --diameter-m, in m, or with its unit, as in 8in"),
+            ("diameter_m", "correct --diameter-m, in m, or with its unit, as in 24cm or 8in"),
             ("clock_ppm", "correct --clock-ppm, in millionths"),
             ("vehicle.mass_kg", "correct --mass-kg, in kg, or with its unit, as in 413g"),
             ("hop_ratio", "correct hop_ratio"),

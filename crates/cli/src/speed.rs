@@ -71,12 +71,12 @@ fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], termi
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
     let count = records.iter().map(|record| record.rotors().len()).max().unwrap_or_default();
     if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
-        let what = format!("the number of rotors is not given: hovertone separated {count} rotors in the sound");
-        terminal.tip(&Notice::new(
-            what,
-            "give the number of rotors that your vehicle has, as in --rotors 4: with it, the answer is surer; if one rotor runs \
-             alone, give --rotors 1",
-        ));
+        let what = format!("hovertone found {count} rotors by itself, because their number is not given");
+        let hint = format!(
+            "if your vehicle has {count} rotors, all is well; if not, give their number, as in --rotors 6, and --rotors 1 \
+             where one runs alone"
+        );
+        terminal.tip(&Notice::new(what, hint));
     }
 }
 

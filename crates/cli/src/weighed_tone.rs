@@ -57,10 +57,11 @@ pub(crate) fn tone_of_constant_in_words(
     let Some(heard) = tone.filter(|_| tone_of(typed).is_ok_and(|typed| typed.is_none())) else { return Ok(None) };
     Ok(Some(Notice::new(
         format!(
-            "hovertone listens for the tone that the recordings of the constant have: it sounds {}",
+            "no flag says which tone to hear, so hovertone listens for the tone of the constant: it sounds {}",
             times_per_turn(Order::new(heard.order)?)
         ),
-        "other propellers have another constant: measure it with `hovertone identify`",
+        "this is right with the same propellers as in the recordings of the constant; for others, measure a constant first with \
+         `hovertone identify`",
     )))
 }
 

@@ -32,8 +32,14 @@ const OTHER_ROTORS_IN_FLIGHT: (&str, &str) =
     ("if more rotors turn, give their number with --rotors; if not, ", "check the number of rotors; if it is right, ");
 
 /// Behind `weigh`, which hears a vehicle in a hover.
-pub(crate) const IN_HOVER: Wording =
-    Wording::of_phrases(&[("if fewer rotors turn, give their number with --rotors; ", ""), OTHER_ROTORS_IN_FLIGHT]);
+pub(crate) const IN_HOVER: Wording = Wording::of_phrases(&[
+    (
+        "the speed is the mean of all rotors, and its ± allows for this",
+        "the mass comes from the mean speed of all rotors, and its ± allows for this",
+    ),
+    ("if fewer rotors turn, give their number with --rotors; ", ""),
+    OTHER_ROTORS_IN_FLIGHT,
+]);
 
 /// Behind `spectrogram`, which prints no speed.
 pub(crate) const IN_PICTURE: Wording =

@@ -58,7 +58,7 @@ impl BenchTorque {
         match self {
             Self::Told { .. } => None,
             Self::NoTorque => Some(
-                "this log has no torque; log the torque that a test stand measures, or fly yaw manoeuvres and use \
+                "no column of this log has the torque that a test stand measures; log it with one motor, or fly yaw manoeuvres and use \
                 `hovertone greybox`"
                     .to_owned(),
             ),

@@ -37,7 +37,7 @@ pub use grey_box::*;
 pub use listening::{
     HeardLines, LineOrders, SoundConfig, SoundFit, grey_box_from_sound, lines_from_passes, log_offset_s, speeds_along,
 };
-pub use load::LoadTerm;
+pub use load::{LOAD_STEPS_MIN, LoadTerm};
 pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series, torque_of_motor};
 pub use room::*;
 pub use series::{CommandSeries, MotorSeries, command_of_speed};

@@ -5,7 +5,7 @@ use crate::weighted_line::{WeightedLine, WeightedPoint};
 use hovertone_vehicle::{Ending, Estimate};
 
 /// Fewest steps: a straight line through two points has no scatter. *Numeric.*
-const STEPS_MIN: usize = 3;
+pub const LOAD_STEPS_MIN: usize = 3;
 /// Largest standard uncertainty of the load's share of 1/τ at the mean speed. *Decision*: at more the range of speeds is too small.
 const SHARE_STD_MAX: f64 = 0.1;
 /// A curve of first order through a step with the square term has the 1/τ of the speed at its end, less this share of the step. *Physics*:
@@ -28,7 +28,7 @@ pub struct LoadTerm {
 pub(crate) fn load_term_of<'a>(steps: impl Iterator<Item = &'a MotorStep>) -> Option<LoadTerm> {
     let rising = steps.filter(|step| step.verdict == StepVerdict::Used && step.is_up());
     let rates: Vec<WeightedPoint> = rising.filter_map(rate_of).collect();
-    if rates.len() < STEPS_MIN {
+    if rates.len() < LOAD_STEPS_MIN {
         return None;
     }
     let line = WeightedLine::through(&rates);

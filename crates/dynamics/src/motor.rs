@@ -22,7 +22,7 @@ pub struct MotorModel {
     pub steps: Vec<MotorStep>,
     /// Speed of each command; absent without commands, or where they have little to do with the speed.
     pub static_map: Option<StaticMap>,
-    /// Largest settled speed where commands are held, else the largest speed of any row.
+    /// Largest speed that some rows one after another reach.
     pub speed_rev_s_max: f64,
 }
 
@@ -84,10 +84,7 @@ pub fn motor_from_series(
     };
     let steps: Vec<MotorStep> =
         transitions.iter().filter_map(|transition| step_of_transition(&context, transition)).collect();
-    // a single row may be wrong: the largest speed is that of a level
-    let settled = plateaus.iter().map(|plateau| plateau.speed_rev_s);
-    let stepped = steps.iter().map(|step| step.speed_from_rev_s.max(step.speed_to_rev_s));
-    let speed_rev_s_max = settled.chain(stepped).reduce(f64::max).unwrap_or(speed_rev_s_max);
+    let speed_rev_s_max = series.reached_rev_s_max().unwrap_or(speed_rev_s_max);
     Some(MotorModel { interval_s, is_too_slow, static_map, speed_rev_s_max, steps })
 }
 

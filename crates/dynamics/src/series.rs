@@ -2,6 +2,9 @@
 
 use hovertone_signal::statistics::{mean, median, std, std_uncertainty_of_mean};
 
+/// Rows that must reach a speed. *Numeric.*
+const REACHED_ROWS: usize = 3;
+
 /// Speed of one motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorSeries<'a> {
@@ -34,6 +37,13 @@ impl MotorSeries<'_> {
     /// Largest speed.
     pub(crate) fn speed_rev_s_max(&self) -> f64 {
         self.speed_rev_s.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Largest speed that some rows one after another reach: a single row may be wrong. `None` for fewer rows.
+    pub(crate) fn reached_rev_s_max(&self) -> Option<f64> {
+        let reached =
+            self.speed_rev_s.windows(REACHED_ROWS).map(|rows| rows.iter().copied().fold(f64::INFINITY, f64::min));
+        reached.reduce(f64::max)
     }
 
     /// The rows from a time on, and before another.

@@ -11,12 +11,16 @@ use plotters::style::Color;
 
 /// Tones this near are one line of the picture: readings of one tone that differ in its order.
 const SAME_LINE_SHARE: f64 = 0.02;
+/// Smallest plausibility of a reading in the key.
+const SHOWN_MIN: f64 = 0.01;
 /// Height of the key over the panel.
 const KEY_UP: i32 = 66;
 
 /// Draws the readings over the spectrogram of all frequencies, and the key above it.
 pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, range_s: Extent) -> Result<(), FigureError> {
-    let Some((first, others)) = trial.readings.split_first() else { return Ok(()) };
+    if trial.readings.is_empty() {
+        return Ok(());
+    }
     if let Some(tone) = trial.heard_tone() {
         canvas.plot(panel, "tracks reading-1", |plot| {
             let lines = tone.bands.iter().flat_map(|band| coarser(common_lines(trial, tone, band)));
@@ -26,31 +30,41 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, range_
             })
         })?;
     }
-    for (number, reading) in (2..).zip(others).filter(|(_, reading)| !is_same_line(first, reading)) {
-        canvas.plot(panel, &format!("reading reading-{number}"), |plot| {
+    for (index, line) in lines_of(trial.readings).iter().enumerate().skip(1) {
+        let [reading, ..] = line.as_slice() else { continue };
+        canvas.plot(panel, &format!("reading reading-{}", index + 1), |plot| {
             let at = |time_s: f64| Point::new(time_s, reading.tone_hz);
             let (from, to) = (at(range_s.low), at(range_s.high));
             plot.line(&[from, to], OVER_PICTURE.mix(0.8).stroke_width(7))?;
-            plot.dashed(from, to, colour_of_rotor(number - 1), 4)
+            plot.dashed(from, to, colour_of_rotor(index), 4)
         })?;
     }
     canvas.layer("key readings", |sheet| key(sheet, trial.readings, panel))
 }
 
-/// The meaning of each line; those without room are named in the description alone.
+/// The readings of each line of the picture: those of one tone differ in its order. The line of the most plausible reading is first.
+fn lines_of(readings: &[Reading]) -> Vec<Vec<&Reading>> {
+    let mut lines: Vec<Vec<&Reading>> = Vec::new();
+    for reading in readings {
+        match lines.iter_mut().find(|line| line.first().is_some_and(|first| is_same_line(first, reading))) {
+            Some(line) => line.push(reading),
+            None => lines.push(vec![reading]),
+        }
+    }
+    lines
+}
+
+/// The meaning of each line, with its readings of a per cent or more; what has no room is named in the description alone.
 fn key(sheet: &Sheet<'_, '_>, readings: &[Reading], panel: &Panel) -> Result<(), FigureError> {
     let mut at = Point::new(panel.place.left, panel.place.top - KEY_UP);
-    let Some(first) = readings.first() else { return Ok(()) };
-    for (index, reading) in readings.iter().enumerate() {
-        let words = in_words(reading);
+    for (index, line) in lines_of(readings).iter().enumerate() {
+        let shown = line.iter().enumerate().filter(|(at, reading)| *at == 0 || reading.plausibility >= SHOWN_MIN);
+        let words = shown.map(|(_, reading)| in_words(reading)).collect::<Vec<_>>().join(", ");
         if at.x + Sheet::key_width(&words) > WIDTH {
             break;
         }
-        at.x = if is_same_line(first, reading) {
-            sheet.key(at, colour_of_rotor(index), &words)?
-        } else {
-            sheet.dashed_key(at, colour_of_rotor(index), &words)?
-        };
+        let colour = colour_of_rotor(index);
+        at.x = if index == 0 { sheet.key(at, colour, &words)? } else { sheet.dashed_key(at, colour, &words)? };
     }
     Ok(())
 }

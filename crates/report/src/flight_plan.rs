@@ -3,13 +3,17 @@
 use crate::counted;
 use crate::number::significant;
 use hovertone_thrust::{BudgetInput, FlightPlan, PlanWish, compared};
+use hovertone_vehicle::in_list;
+
+/// Longer times of hover are told in minutes.
+const SECONDS_SHOWN_MAX: f64 = 120.0;
 
 /// The plan as text, with the range of loads that would show an intercept.
 pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     let steps = plan.load_count - 1;
     let added: Vec<String> = (0..plan.load_count)
         .map(|load| 1e3 * wish.added_mass_kg_max * load as f64 / steps as f64)
-        .map(|added_g| if added_g == 0.0 { "nothing".to_owned() } else { significant(added_g, 3) + " g" })
+        .map(|added_g| if added_g == 0.0 { "0 g".to_owned() } else { significant(added_g, 3) + " g" })
         .collect();
     let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
     let intercept = match plan.force_ratio_for_intercept {
@@ -30,19 +34,24 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     let separated = match plan.largest {
         BudgetInput::LoudestRotor => {
-            "\nThis assumes that the rotors cannot be separated. If `hovertone speed` separates your rotors, add \
-            --rotors-separated."
+            "\nThis assumes that one tone is used for all rotors. If `hovertone speed` separates your rotors, or hears them \
+            as a group, add --rotors-separated."
         }
         _ => "",
     };
+    let hover = match plan.hover_s {
+        hover_s if hover_s < SECONDS_SHOWN_MAX => format!("{hover_s:.0} s"),
+        hover_s => format!("{:.1} minutes", hover_s / 60.0),
+    };
     format!(
-        "{} loads (add {}), {} of each load, {:.0} s of hover in each recording: {:.1} minutes of hover\n\
-         Expected: C_f ± {} % (k = 2). The largest part of this ± comes from: {}.{separated}\n{intercept}\n",
+        "Plan: {} loads ({} added), {} of each load, {:.0} s of hover in each recording: {hover} of hover in all\n\
+         Wanted: C_f ± {} % or less (k = 2; another wish: --wanted-share). Expected: ± {} %. The largest part of this ± comes from: \
+         {}.{separated}\n{intercept}\n",
         plan.load_count,
-        added.join(", "),
+        in_list(&added, "and"),
         counted(plan.trials_per_load, "recording"),
         plan.trial_s,
-        plan.hover_s / 60.0,
+        significant(100.0 * wish.wanted_share, 2),
         significant(100.0 * plan.expanded_share, 2),
         plan.largest.title(),
     )

@@ -6,7 +6,7 @@ use crate::notice::Notice;
 use crate::quote::counted;
 use crate::recording::SpeedRecord;
 
-/// Fewer recordings stand side by side: nothing is folded.
+/// Fewer recordings stand side by side: only what both have in the same words is folded.
 const RECORDINGS_MIN: usize = 3;
 /// Most names in a line.
 const NAMES_MAX: usize = 6;
@@ -43,15 +43,13 @@ impl FoldedWarning {
 
 /// The kinds of warnings that several recordings have, in the order in which the recordings name them.
 pub fn folded_warnings(records: &[&SpeedRecord]) -> Vec<FoldedWarning> {
-    if records.len() < RECORDINGS_MIN {
-        return Vec::new();
-    }
     let files: Vec<&str> = records.iter().map(|record| record.file.as_str()).collect();
     let names = short_names(&files);
     let all: Vec<Vec<Notice>> = records.iter().map(|record| told_notices(record)).collect();
     let missing = kinds_of(&records.iter().map(|record| missing_speed(record)).collect::<Vec<_>>(), &names);
     let missing = missing.into_iter().map(|kind| FoldedWarning { is_missing_speed: true, ..kind });
-    missing.chain(kinds_of(&all, &names)).collect()
+    let is_folded = |kind: &FoldedWarning| records.len() >= RECORDINGS_MIN || kind.is_of_all;
+    missing.chain(kinds_of(&all, &names)).filter(is_folded).collect()
 }
 
 /// The warnings of one recording that are not folded.
@@ -192,6 +190,7 @@ fn recordings_in_words(with: &[bool], names: &[String]) -> String {
 /// "all 15 recordings", "14 of 15 recordings".
 fn counted_recordings(with: &[bool]) -> String {
     match with.iter().filter(|has| **has).count() {
+        2 if with.len() == 2 => "both recordings".to_owned(),
         count if count == with.len() => format!("all {count} recordings"),
         count => format!("{count} of {} recordings", with.len()),
     }

@@ -44,6 +44,7 @@ mod missing_speed;
 mod models;
 mod motor;
 mod motor_json;
+mod motor_map;
 mod names;
 mod notice;
 mod number;

@@ -1,12 +1,13 @@
 //! Constants of motors from a log or a recording: tables for people, and lines for simulators.
 
+use crate::motor_map::maps_text;
 use crate::number::{DASH, expanded, fixed, rounded, scaled_number, significant, with_uncertainty};
 use crate::printable::printable;
 use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::{
-    BenchTorque, CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, MotorStep, StepVerdict,
+    BenchTorque, CombinedEstimate, LOAD_STEPS_MIN, LoadTerm, MotorConstants, MotorModel, MotorStep, StepVerdict,
     constants_of,
 };
 use hovertone_vehicle::Estimate;
@@ -250,8 +251,16 @@ fn verdict_in_words(verdict: StepVerdict, source: &MotorSource) -> &'static str 
 /// How the load changes the time constant, or why this is not known.
 fn load_text(constants: &MotorConstants) -> String {
     let Some(LoadTerm { unloaded_rate_per_s, square_per_rev, .. }) = constants.load_term else {
-        return "not known whether the time constant changes with the speed: there are too few rising steps, or their speeds are too alike\n"
-            .to_owned();
+        let count = constants.time_constant_up_s.map_or(0, |up| up.step_count);
+        let why = if count < LOAD_STEPS_MIN {
+            format!("rising steps to {LOAD_STEPS_MIN} different speeds are needed, and there are {count}")
+        } else {
+            format!(
+                "the time constants of the {count} rising steps are too uncertain, or their speeds are too alike; more \
+                rising steps to different speeds may show it"
+            )
+        };
+        return format!("not known whether the time constant changes with the speed: {why}\n");
     };
     let rate = with_uncertainty(unloaded_rate_per_s.value, unloaded_rate_per_s.std_uncertainty);
     let square = with_uncertainty(square_per_rev.value, square_per_rev.std_uncertainty);
@@ -260,49 +269,13 @@ fn load_text(constants: &MotorConstants) -> String {
     )
 }
 
-/// The static maps, in words the speed of each command: the gain of each motor, and the plateaus behind it.
-fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
-    if record.motors.iter().all(|motor| motor.command.is_none()) {
-        return match record.source {
-            MotorSource::Log => {
-                "\nspeed of each command: not known, because this log has no commands, or none of them changes\n".to_owned()
-            }
-            MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
-                "\nspeed of each command: not known, because the commands and the heard speeds do not change at the same times; check that both are \
-                of the same run\n"
-                    .to_owned()
-            }
-            MotorSource::Sound(_) => {
-                "\nspeed of each command: not known without the commands (give --commands LOG)\n".to_owned()
-            }
-        };
-    }
-    let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
-    let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
-    if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
-        text += "gain: change of the steady speed per unit of the command; it holds only between the smallest and the \
-        largest of these commands\n";
-    }
-    if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "no two commands are held while the motor turns, so the gain comes from all log rows. The motor \
-        follows each command late, so this gain is too small\n";
-    }
-    if maps().any(|map| !map.points.is_empty()) {
-        text += &format!("\n{}", table_text(&plateaus_table(record), width));
-    }
-    if maps().any(|map| map.points.iter().any(|point| point.is_saturated)) {
-        text += "saturated: the speed no longer follows the command; this command is left out of the gain\n";
-    }
-    text
-}
-
 fn torque_text(torque: &BenchTorque) -> String {
     let told = match torque {
         BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
             let offset = significant(*offset_n_m, 2);
             let how = format!(
-                " (± of the fit alone, k = 2), from the torque at {level_count} steady speeds; the fit gives \
-                {offset} N m at rest"
+                " (± of the fit alone, k = 2), from the torque at {level_count} steady speeds; at rest, the fit gives \
+                {offset} N m: this is the zero of the torque sensor"
             );
             Ok((*constant_n_m_s2, how))
         }
@@ -320,52 +293,6 @@ pub(crate) fn torque_constant_text(told: Result<(Estimate, String), String>) -> 
         }
         Err(reason) => format!("torque constant C_τ: not known, because {reason}\n"),
     }
-}
-
-fn gains_table(record: &MotorRecord) -> TextTable {
-    let mut shown = TextTable::new(vec![
-        Column::words("motor"),
-        Column::words("command"),
-        Column::numbers("gain", "rev/s per unit"),
-        Column::numbers("speed at command 0, by the gain", "rev/s"),
-    ]);
-    for motor in &record.motors {
-        let told = motor.model.static_map.as_ref().and_then(|map| Some((map.gain_rev_s?, map.offset_rev_s?)));
-        match (&motor.command, told) {
-            (None, _) => shown.push_words(motor.name.clone(), "no command in this log".to_owned()),
-            (Some(command), None) => {
-                shown.push_words(motor.name.clone(), format!("not known: the command \"{command}\" is not held at two values, or the speed does not follow it"));
-            }
-            (Some(command), Some((gain, offset_rev_s))) => shown.push(vec![
-                motor.name.clone(),
-                command.clone(),
-                with_uncertainty(gain.value, gain.std_uncertainty),
-                if offset_rev_s < 0.0 { DASH.to_owned() } else { significant(offset_rev_s, DIGITS) },
-            ]),
-        }
-    }
-    shown
-}
-
-fn plateaus_table(record: &MotorRecord) -> TextTable {
-    let mut shown = TextTable::new(vec![
-        Column::words("motor"),
-        Column::numbers("command", ""),
-        Column::numbers("steady speed", "rev/s"),
-        Column::words("note"),
-    ]);
-    for motor in &record.motors {
-        for point in motor.model.static_map.iter().flat_map(|map| &map.points) {
-            let note = if point.is_saturated { "saturated" } else { "" };
-            shown.push(vec![
-                motor.name.clone(),
-                significant(point.command, DIGITS),
-                with_uncertainty(point.speed_rev_s, Some(point.speed_std_rev_s)),
-                note.to_owned(),
-            ]);
-        }
-    }
-    shown
 }
 
 /// Lines for models of Gazebo and PX4, where a time constant is told.

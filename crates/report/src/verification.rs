@@ -49,14 +49,7 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
             rotor.point_count.to_string(),
         ]);
     }
-    let offset = if found.is_offset_told {
-        format!("offset of the log: {} s, the time to add to the clock of the log\n", signed(found.offset_s, 3))
-    } else {
-        format!(
-            "offset of the log: not known, because other offsets fit nearly as well ({} s is used)\n",
-            signed(found.offset_s, 1)
-        )
-    };
+    let offset = offset_in_words(found);
     let rate = found.clock_rate_share.map_or(String::new(), |share| {
         format!("the clocks of log and recording drift apart by {} millionths\n", signed(share * PPM, 0))
     });
@@ -66,6 +59,26 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
         printable(&record.log),
         table_text(&shown, width),
         verdict_in_words(found)
+    )
+}
+
+/// The time to add to the clock of the log, and how it is known.
+fn offset_in_words(found: &Verification) -> String {
+    if found.is_offset_told {
+        return format!(
+            "offset of the log: {} s, the time to add to the clock of the log\n",
+            signed(found.offset_s, 3)
+        );
+    }
+    let used = signed(found.offset_s, 1);
+    if found.is_offset_given {
+        return format!(
+            "offset of the log: {used} s is used, as --log-offset-s allows; the speeds alone do not show it\n"
+        );
+    }
+    format!(
+        "offset of the log: not known, because the speeds agree nearly as well at other offsets; in this table, {used} s are \
+         added to the clock of the log\n"
     )
 }
 

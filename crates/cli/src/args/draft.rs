@@ -33,7 +33,7 @@ pub(crate) struct DraftArguments {
     /// Number of rotors that carry the vehicle [default: the vehicle's]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
-    /// Diameter of a propeller, from tip to tip, in m or as 8in: with it, hovertone can rule out half and double the true speed [default: the
+    /// Diameter of a propeller, from tip to tip, in m or as 24cm or 8in: with it, hovertone can rule out half and double the true speed [default: the
     /// vehicle's]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,

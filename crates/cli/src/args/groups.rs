@@ -38,7 +38,7 @@ pub(crate) struct ToneArguments {
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Known facts about the vehicle")]
 pub(crate) struct KnownArguments {
-    /// Diameter of a propeller, in m or as 8in: it rules out speeds at which the tips are faster than Mach 0.6
+    /// Diameter of a propeller, in m or as 24cm or 8in: it rules out speeds at which the tips are faster than Mach 0.6
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Mass as flown, in kg or as 413g: with --diameter-m and --rotors it rules out speeds that cannot carry the vehicle

@@ -144,7 +144,7 @@ pub(crate) struct PlaceArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Air and propeller, for C_T and the figure of merit")]
 pub(crate) struct AirArguments {
-    /// Diameter of a propeller, in m or as 8in
+    /// Diameter of a propeller, in m or as 24cm or 8in
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Temperature of the air [default: of the standard atmosphere at --height-m]
@@ -167,10 +167,10 @@ pub(crate) struct PlanArguments {
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
     #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.025)]
     pub(crate) wanted_share: f64,
-    /// Mass of the vehicle, ready to fly
+    /// Mass of the vehicle, ready to fly, in kg or as 413g
     #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Largest payload that the vehicle may carry [default: a quarter of its mass]
+    /// Largest payload that the vehicle may carry, in kg or as 100g [default: a quarter of its mass]
     #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) added_mass_kg: Option<f64>,
     /// Standard uncertainty of a weighing
@@ -216,11 +216,11 @@ pub(crate) struct WeighArguments {
     /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
-    /// Diameter of a propeller, in m or as 8in: with it, hovertone can rule out half and double the true speed [default: that of the results, or of
+    /// Diameter of a propeller, in m or as 24cm or 8in: with it, hovertone can rule out half and double the true speed [default: that of the results, or of
     /// --vehicle]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
-    /// Mass of the vehicle without payload [default: that of the results]
+    /// Mass of the vehicle without payload, in kg or as 413g [default: that of the results]
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
     /// Standard uncertainty of that mass [default: 0.0005]
@@ -291,7 +291,7 @@ pub(crate) struct ExportArguments {
     /// Command (0 to 1) at which the vehicle hovers, for constants in N/command²
     #[arg(long, value_name = "U")]
     pub(crate) hover_command: Option<f64>,
-    /// Diameter of a propeller, in m or as 8in [default: that of the results]
+    /// Diameter of a propeller, in m or as 24cm or 8in [default: that of the results]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Density of the air [default: that of the results]

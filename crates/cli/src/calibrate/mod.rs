@@ -35,8 +35,8 @@ const OTHER_ROTOR: &str = "other_rotor";
 const HARDLY_HEARD: &str = "tone_hardly_heard";
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
-const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, but the known speed belongs to one \
-                                rotor; record one rotor that runs alone";
+const SEVERAL_IN_WORDS: &str = "several rotors are heard, or one rotor whose speed changes, and the known speed belongs to \
+                                one steady rotor; record one rotor that runs alone, at a steady throttle";
 const SEE_HELP: &str = "for example `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 const SEE_HELP_OF_SPEED: &str =
     "for example `hovertone calibrate --tachometer-rpm 3600 --blades 2 rotor.wav`; see `hovertone calibrate --help`";

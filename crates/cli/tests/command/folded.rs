@@ -102,4 +102,10 @@ fn a_warning_of_all_recordings_is_contradicted_by_none() {
     assert!(!page.contains("without warnings"));
     let lines = run.stderr.matches("warning: ").count();
     assert_counted(&run, &page, lines);
+    // of two recordings, what both have in the same words is told once
+    let folder = tempfile::tempdir().unwrap();
+    let (run, page) = identified(folder.path(), &[SHORT_S; 2]);
+    assert!(run.stderr.contains("used as one sample (in both recordings)"), "{}", run.stderr);
+    let lines = run.stderr.matches("warning: ").count();
+    assert_counted(&run, &page, lines);
 }

@@ -211,7 +211,7 @@ fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
         "too few rows for a time constant",
         "speed of each command\n",
         "output 4",
-        "no two commands are held",
+        "no motor is held at two different commands",
     ] {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }

@@ -234,7 +234,7 @@ fn a_short_part_is_told_the_length_that_is_needed_and_that_length_is_enough() {
         hovertone(&[&words[..], &[text(&sound)]].concat())
     };
     let short = part("3.2").ends_with(0);
-    let needed = short.stderr.split_once("only 0.2 s of the sound are used, and hovertone needs ").unwrap().1;
+    let needed = short.stderr.split_once("only 0.2 s of the sound are used, and a reliable ± needs ").unwrap().1;
     assert!(needed.contains("choose a longer part") && !needed.contains("--window-s"), "{}", short.stderr);
     let needed_s: f64 = needed.split_once(" s or more").unwrap().0.parse().unwrap();
     let long = part(&format!("{}", 3.0 + needed_s)).ends_with(0);

@@ -142,8 +142,13 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     };
     let mut families = families(Some(believed.fundamental_hz())).into_iter();
     let family = families.next().map(|lines| believed.family(lines, ratio));
-    let is_mesh = |other: &ToneFamily| family.as_ref().is_some_and(|rotor| other.is_gear_mesh_of(rotor));
-    let others: Vec<ToneFamily> = families.map(|other| if is_mesh(&other) { as_mesh(other) } else { other }).collect();
+    let mesh_hz = |other: &ToneFamily| other.gear_mesh_hz_of(family.as_ref()?);
+    let others: Vec<ToneFamily> = families
+        .map(|other| match mesh_hz(&other) {
+            Some(mesh_hz) => as_mesh(other, mesh_hz),
+            None => other,
+        })
+        .collect();
     Ok(FoundSpeed {
         rotor: family.is_some().then_some(0),
         families: family.into_iter().chain(others).collect(),
@@ -153,9 +158,17 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     })
 }
 
-/// The family of a gear mesh: the readings of the rotor are its readings.
-fn as_mesh(family: ToneFamily) -> ToneFamily {
+/// The family of a gear mesh: the readings of the rotor are its readings, and so is the frequency.
+fn as_mesh(mut family: ToneFamily, mesh_hz: f64) -> ToneFamily {
+    let ratio = mesh_hz / family.fundamental_hz;
+    move_lines(&mut family, ratio);
     ToneFamily { readings: Vec::new(), remark: Some(Remark::GearMesh), ..family }
+}
+
+/// Multiplies the frequencies of all lines of a family.
+fn move_lines(family: &mut ToneFamily, ratio: f64) {
+    family.fundamental_hz *= ratio;
+    family.harmonics.iter_mut().for_each(|harmonic| harmonic.hz *= ratio);
 }
 
 fn is_single_line(family: &ToneFamily) -> bool {
@@ -177,8 +190,7 @@ fn with_refined_line(
     let analysis = speed_of_heard_rotor(passes, surveyed, rotor, &found)?;
     let ratio = speed_of(&analysis, &found).map(|found| found.speed.rad_s() / speed.rad_s());
     if let Some(ratio) = ratio.filter(|ratio| (ratio - 1.0).abs() < SAME_LINE_SHARE) {
-        line.fundamental_hz *= ratio;
-        line.harmonics.iter_mut().for_each(|harmonic| harmonic.hz *= ratio);
+        move_lines(line, ratio);
         line.readings = line.readings.iter().map(|reading| at_ratio(reading, ratio)).collect();
     }
     Ok(families)

@@ -67,6 +67,11 @@ impl RotorTracks {
         self.close_s == 0.0 && self.rotors.iter().all(is_apart)
     }
 
+    /// Whether each of them is resolved.
+    pub(crate) fn are_all_resolved(&self) -> bool {
+        self.resolved(None).count() == self.rotors.len()
+    }
+
     /// Whether more than half of them are resolved.
     fn are_mostly_resolved(&self) -> bool {
         2 * self.resolved(None).count() > self.rotors.len()

@@ -62,7 +62,8 @@ pub(crate) fn decision_from_lines(
     if !keeps_phase && !rotors.are_told_apart() {
         return Err(lost().into());
     }
-    if rotors.another_s > 0.0 && config.rotors.is_count_known {
+    // beside rotors that are not separated, the other one may be one of these
+    if rotors.another_s > 0.0 && config.rotors.is_count_known && rotors.are_all_resolved() {
         lines.warnings.push(Warning::OtherRotorsHeard { expected: config.rotors.count });
     }
     let alternatives = candidates.alternatives(config);

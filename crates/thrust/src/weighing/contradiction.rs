@@ -18,8 +18,8 @@ pub enum WeighError {
     },
     /// The vehicle alone would turn its rotors faster than they are searched for.
     #[error(
-        "mass_kg = {vehicle_kg}: with this constant the vehicle alone would hover at {rev_s:.0} rev/s, but its rotors turn at no more than \
-        {fastest_rev_s:.0} rev/s"
+        "mass_kg = {vehicle_kg}: with this constant the vehicle alone would hover at {rev_s:.0} rev/s, but hovertone searches \
+        for its rotors only up to {fastest_rev_s:.0} rev/s"
     )]
     TooHeavyToHover {
         /// Mass of the vehicle, as given.

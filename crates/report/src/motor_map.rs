@@ -1,0 +1,104 @@
+//! The static maps of motors, in words the speed of each command: the gains, and the steady speeds behind them.
+
+use crate::motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
+use crate::number::{DASH, significant, with_uncertainty};
+use crate::table_lines::table_text;
+use crate::text_table::{Column, TextTable};
+use hovertone_dynamics::MapOrigin;
+use hovertone_vehicle::Estimate;
+
+/// Digits of a command and of a speed.
+const DIGITS: usize = 4;
+
+/// The static maps, in words the speed of each command: the gain of each motor, and the plateaus behind it.
+pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
+    if record.motors.iter().all(|motor| motor.command.is_none()) {
+        return match record.source {
+            MotorSource::Log => {
+                "\nspeed of each command: not known, because this log has no commands, or none of them changes\n".to_owned()
+            }
+            MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
+                "\nspeed of each command: not known, because the commands and the heard speeds do not change at the same times; check that both are \
+                of the same run\n"
+                    .to_owned()
+            }
+            MotorSource::Sound(_) => {
+                "\nspeed of each command: not known without the commands (give --commands LOG)\n".to_owned()
+            }
+        };
+    }
+    let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
+    let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
+    if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
+        text += "gain: change of the steady speed per unit of the command; it holds only between the smallest and the \
+        largest of these commands\n";
+    }
+    if maps().any(|map| map.origin == MapOrigin::Rows) {
+        text += "no motor is held at two different commands, so each gain comes from all log rows. The speed lags behind \
+        the command, so the true gain is larger, and its ± does not contain this. For a better gain, hold at least two \
+        commands for a second each\n";
+    }
+    if maps().filter_map(|map| map.gain_rev_s).any(is_nothing) {
+        text += "a gain whose ± is larger than the gain shows nothing: the commands differ too little\n";
+    }
+    if maps().any(|map| !map.points.is_empty()) {
+        text += &format!("\n{}", table_text(&plateaus_table(record), width));
+    }
+    if maps().any(|map| map.points.iter().any(|point| point.is_saturated)) {
+        text += "saturated: the speed no longer follows the command; this command is left out of the gain\n";
+    }
+    text
+}
+
+/// Whether an estimate may be zero: its ± (k = 2) is larger than its value.
+fn is_nothing(estimate: Estimate) -> bool {
+    estimate.std_uncertainty.is_some_and(|std| 2.0 * std > estimate.value.abs())
+}
+
+fn gains_table(record: &MotorRecord) -> TextTable {
+    let told_of = |motor: &LoggedMotor| {
+        motor.model.static_map.as_ref().and_then(|map| Some((map.gain_rev_s?, map.offset_rev_s?)))
+    };
+    // no rotor turns backwards at the command 0: such a motor has a threshold
+    let has_offsets = record.motors.iter().filter_map(told_of).any(|(_, offset_rev_s)| offset_rev_s >= 0.0);
+    let offset = Column::numbers("speed at command 0, by the gain", "rev/s");
+    let mut columns = vec![Column::words("motor"), Column::words("command"), Column::numbers("gain", "rev/s per unit")];
+    columns.extend(has_offsets.then_some(offset));
+    let mut shown = TextTable::new(columns);
+    for motor in &record.motors {
+        match (&motor.command, told_of(motor)) {
+            (None, _) => shown.push_words(motor.name.clone(), "no command in this log".to_owned()),
+            (Some(command), None) => {
+                shown.push_words(motor.name.clone(), format!("not known: the command \"{command}\" is not held at two values, or the speed does not follow it"));
+            }
+            (Some(command), Some((gain, offset_rev_s))) => {
+                let offset = if offset_rev_s < 0.0 { DASH.to_owned() } else { significant(offset_rev_s, DIGITS) };
+                let gain = with_uncertainty(gain.value, gain.std_uncertainty);
+                let cells = [motor.name.clone(), command.clone(), gain].into_iter();
+                shown.push(cells.chain(has_offsets.then_some(offset)).collect());
+            }
+        }
+    }
+    shown
+}
+
+fn plateaus_table(record: &MotorRecord) -> TextTable {
+    let mut shown = TextTable::new(vec![
+        Column::words("motor"),
+        Column::numbers("command", ""),
+        Column::numbers("steady speed", "rev/s"),
+        Column::words("note"),
+    ]);
+    for motor in &record.motors {
+        for point in motor.model.static_map.iter().flat_map(|map| &map.points) {
+            let note = if point.is_saturated { "saturated" } else { "" };
+            shown.push(vec![
+                motor.name.clone(),
+                significant(point.command, DIGITS),
+                with_uncertainty(point.speed_rev_s, Some(point.speed_std_rev_s)),
+                note.to_owned(),
+            ]);
+        }
+    }
+    shown
+}
