@@ -55,7 +55,7 @@ impl fmt::Display for CutReason {
             Self::TakeOff => f.write_str("take-off"),
             Self::Landing => f.write_str("landing"),
             Self::Manoeuvre => f.write_str("manoeuvre"),
-            Self::NoTone => f.write_str("no steady rotor heard"),
+            Self::NoTone => f.write_str("no steady rotor"),
             Self::Edge => f.write_str("edge of the hover"),
             Self::TooShort => f.write_str("steady, but too short"),
         }

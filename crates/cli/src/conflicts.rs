@@ -12,7 +12,7 @@ const WITHOUT_AIR: &str = "--plan does not use the density of the air: leave the
                            later, when you fit the table";
 const PRINTED: &str = "--json prints the answer as JSON and nothing else: leave one of the two out";
 /// Two arguments, and why only one of them has a meaning.
-const KNOWN: [([&str; 2], &str); 18] = [
+const KNOWN: [([&str; 2], &str); 19] = [
     (["--gravity-m-s2", "--latitude-deg"], "both give the local gravity: leave one of them out"),
     (["--constant", "--constant-n-s2"], "both give the thrust constant: leave one of them out"),
     (
@@ -21,6 +21,7 @@ const KNOWN: [([&str; 2], &str); 18] = [
     ),
     (["--tachometer-rpm", "--true-hz"], "both give the known speed: leave one of them out"),
     (["--to", "--into"], "--to writes a new model, --into changes a model that you have: leave one of them out"),
+    (["NAME", "--add"], "--add copies vehicles from a file, and a name shows a vehicle: leave one of them out"),
     (["--mean-only", "--method"], "both say how the speed is read from the sound: leave one of them out"),
     (
         ["--plan", "TABLE.csv"],
@@ -60,6 +61,7 @@ fn in_words(argument: &str) -> &str {
         EXPERIMENT => "an experiment file",
         "TABLE.csv" => "a table",
         "COMMAND" => "the name of a command",
+        "NAME" => "the name of a vehicle",
         flag => flag,
     }
 }

@@ -5,6 +5,9 @@ use crate::plateaus::Plateau;
 use crate::series::{CommandedSpeed, correlation, std_uncertainty_of_long_mean};
 use hovertone_vehicle::{Ending, Estimate};
 
+/// Commands this near, as a share of the largest, are one command: a controller holds none exactly. *Numeric.*
+const SAME_SHARE: f64 = 0.005;
+
 /// Where a static map comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapOrigin {
@@ -21,7 +24,7 @@ pub struct MapPoint {
     pub command: f64,
     /// Settled speed.
     pub speed_rev_s: f64,
-    /// Standard uncertainty of --constant-n-s2.
+    /// Its standard uncertainty.
     pub speed_std_rev_s: f64,
     /// Whether the speed follows no longer: left out of the gain.
     pub is_saturated: bool,
@@ -45,8 +48,9 @@ pub struct StaticMap {
 pub(crate) fn map_of_plateaus(plateaus: &[Plateau], config: &MotorConfig) -> Option<StaticMap> {
     let mut sorted = plateaus.to_vec();
     sorted.sort_by(|a, b| a.command.total_cmp(&b.command));
+    let same = SAME_SHARE * sorted.iter().map(|plateau| plateau.command.abs()).fold(0.0, f64::max);
     let mut points: Vec<MapPoint> =
-        sorted.chunk_by(|a, b| a.command == b.command).filter_map(point_of_plateaus).collect();
+        sorted.chunk_by(|a, b| b.command - a.command <= same).filter_map(point_of_plateaus).collect();
     let mut kept = points.len();
     while kept >= 3 && gain(&points[kept - 2..kept]) < config.saturated_gain_share * gain(&points[kept - 3..kept - 1]) {
         kept -= 1;

@@ -55,7 +55,7 @@ pub struct SpeedCheck {
     /// Correction of the recorder's clock, in millionths, with the order that fits: positive where the clock runs fast. A fast clock counts
     /// more audio samples per second than the file says, so that all tones are heard too low.
     pub correction_ppm: f64,
-    /// Standard uncertainty of --constant-n-s2, from the sound and from the known speed.
+    /// Its standard uncertainty, from the sound and from the known speed.
     pub correction_std_ppm: f64,
 }
 

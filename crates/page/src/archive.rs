@@ -22,7 +22,7 @@ const PICTURES_MAX: usize = 2_000;
 pub struct HeardSpeed {
     /// Mean shaft speed.
     pub speed_rev_s: f64,
-    /// Standard uncertainty of --constant-n-s2, where it is known.
+    /// Its standard uncertainty, where it is known.
     pub std_rev_s: Option<f64>,
 }
 

@@ -88,7 +88,7 @@ fn in_words(reason: CutReason) -> &'static str {
         CutReason::TakeOff => "take-off",
         CutReason::Landing => "landing",
         CutReason::Manoeuvre => "manoeuvre",
-        CutReason::NoTone => "no steady rotor heard",
+        CutReason::NoTone => "no steady rotor",
         CutReason::Edge => EDGE,
         CutReason::TooShort => "steady, but too short",
         _ => "not hover",
@@ -147,15 +147,15 @@ mod tests {
         let cuts = [cut(0.0, 0.6, CutReason::TooShort), cut(0.5, 2.1, CutReason::NoTone)];
         assert_eq!(
             cuts_in_words(&cuts).as_deref(),
-            Some("0.0–0.6 s (steady, but too short), 0.6–2.1 s (no steady rotor heard)")
+            Some("0.0–0.6 s (steady, but too short), 0.6–2.1 s (no steady rotor)")
         );
     }
 
     #[test]
     fn a_stretch_with_two_reasons_names_both() {
         let cuts = [cut(0.0, 2.0, CutReason::Silence), cut(0.5, 1.5, CutReason::NoTone)];
-        assert_eq!(cuts_in_words(&cuts).as_deref(), Some("0.0–2.0 s (silence, no steady rotor heard)"));
-        assert_eq!(cut_in_short(&cuts).as_deref(), Some("2.0 s each: no steady rotor heard, silence"));
+        assert_eq!(cuts_in_words(&cuts).as_deref(), Some("0.0–2.0 s (silence, no steady rotor)"));
+        assert_eq!(cut_in_short(&cuts).as_deref(), Some("2.0 s each: no steady rotor, silence"));
         // the edge between two stretches belongs to the first
         let cuts =
             [cut(0.0, 2.0, CutReason::Silence), cut(2.0, 2.5, CutReason::Edge), cut(2.5, 3.0, CutReason::Manoeuvre)];
@@ -172,7 +172,7 @@ mod tests {
                 cut(from_s, from_s + 1.5, reason)
             })
             .collect();
-        let expected = "10 stretches: 7.5 s no steady rotor heard, 7.5 s handling noise";
+        let expected = "10 stretches: 7.5 s no steady rotor, 7.5 s handling noise";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
     }
 

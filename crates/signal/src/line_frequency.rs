@@ -45,7 +45,7 @@ pub struct HeardBand {
 pub struct LineFrequency {
     /// Mean frequency over the sound in which the line is heard.
     pub hz: f64,
-    /// Standard uncertainty of --constant-n-s2, from the scatter of the blocks.
+    /// Its standard uncertainty, from the scatter of the blocks.
     pub std_uncertainty_hz: f64,
 }
 

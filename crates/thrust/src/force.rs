@@ -16,14 +16,14 @@ pub enum Force {
         mass_std_kg: f64,
         /// Local gravity.
         gravity_m_s2: f64,
-        /// Standard uncertainty of --constant-n-s2.
+        /// Its standard uncertainty.
         gravity_std_m_s2: f64,
     },
     /// A bench run: thrust from a scale.
     Thrust {
         /// Thrust of all running rotors.
         thrust_n: f64,
-        /// Standard uncertainty of --constant-n-s2.
+        /// Its standard uncertainty.
         thrust_std_n: f64,
     },
 }

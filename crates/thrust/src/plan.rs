@@ -41,7 +41,7 @@ pub struct PlanWish {
     pub mass_std_kg: f64,
     /// Gravity at the place of the flights.
     pub gravity_m_s2: f64,
-    /// Standard uncertainty of --constant-n-s2.
+    /// Its standard uncertainty.
     pub gravity_std_m_s2: f64,
     /// Relative standard deviation σ of the speed in a hover (in the paper's tables STD over speed is 0.0123) …
     pub speed_spread_share: f64,

@@ -86,7 +86,7 @@ pub struct LoadThrust {
     /// Mean shaft speed over all trials, or over all their samples by the methods of the paper; absent without any speed.
     #[serde(rename = "speed_rad_s")]
     pub speed: Option<RotorSpeed>,
-    /// Standard uncertainty of --constant-n-s2, from the scatter of the trials, with Student's factor for few of them.
+    /// Its standard uncertainty, from the scatter of the trials, with Student's factor for few of them.
     pub std_uncertainty_rad_s: Option<f64>,
     /// Standard deviation of the speed over all frames: column STD of the paper.
     pub spread_rad_s: Option<f64>,

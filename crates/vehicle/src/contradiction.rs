@@ -1,5 +1,6 @@
 //! What a person says of a vehicle, against what is known of it and what can fly.
 
+use crate::presets::INCH_M;
 use crate::{Gear, KNOWN_MASS_SHARES, Order, RotorSpeed, SOUND_M_S};
 use std::f64::consts::PI;
 
@@ -8,6 +9,9 @@ pub const TIP_MACH_MAX: f64 = 0.6;
 
 /// Slowest shaft speed of a multirotor in hover, rev/s. The largest multirotors' propellers make 30. *Physics.*
 pub(crate) const HOVER_REV_S_MIN: f64 = 10.0;
+
+/// Diameters of so many metres and more were read in inches: the largest propellers of multirotors have 1.6 m. *Physics.*
+const INCHES_MIN: f64 = 3.0;
 
 /// Two statements of which one must be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -186,6 +190,10 @@ impl Contradiction {
             Self::GearSwapped(gear) => {
                 format!("the pinion on the motor comes first: write {}:{}", gear.wheel, gear.pinion)
             }
+            Self::TipsTooFast { diameter_m, .. } if *diameter_m >= INCHES_MIN => format!(
+                "the diameter is in metres, from tip to tip: for {diameter_m} inches write {:.3}",
+                INCH_M * diameter_m
+            ),
             Self::TipsTooFast { rev_s, .. } if *rev_s <= HOVER_REV_S_MIN => format!(
                 "check the diameter (from tip to tip, in metres: 10 inches are 0.254): multirotors hover at \
                 {HOVER_REV_S_MIN} rev/s or more"
@@ -234,6 +242,8 @@ mod tests {
         let limit = RotorSpeed::from_rev_s(0.6 * 343.2 / (PI * 0.254));
         assert!(check_tips(0.254, RotorSpeed::from_rad_s(0.999 * limit.rad_s())).is_ok());
         assert!(check_tips(0.254, RotorSpeed::from_rad_s(1.001 * limit.rad_s())).is_err());
+        let inches = check_tips(8.0, RotorSpeed::from_rev_s(10.0)).unwrap_err().hint();
+        assert!(inches.contains("for 8 inches write 0.203"), "{inches}");
         let error = check_tips(2.54, RotorSpeed::from_rev_s(60.0)).unwrap_err();
         assert!(error.to_string().contains("Mach 1.40") && error.hint().contains("0.254"), "{error}");
     }

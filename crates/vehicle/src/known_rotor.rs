@@ -147,7 +147,7 @@ mod tests {
     fn ten_inches_are_not_ten_metres() {
         let of = |diameter_m| KnownRotor { diameter_m: Some(diameter_m), ..KnownRotor::default() };
         of(2.0).check_diameter().unwrap();
-        assert!(of(10.0).check_diameter().unwrap_err().hint().contains("10 inches are 0.254"));
+        assert!(of(10.0).check_diameter().unwrap_err().hint().contains("for 10 inches write 0.254"));
     }
 
     #[test]

@@ -7,7 +7,7 @@
 use crate::{Gear, ShaftSpeedRange, Sourced, Vehicle};
 
 /// Metres in an inch, the unit in which propellers are sold. *Physics.*
-const INCH_M: f64 = 0.0254;
+pub(crate) const INCH_M: f64 = 0.0254;
 
 /// Source of the number of blades: the paper of the method (Pizetta, Brandao, Pizziolo, Sarcinelli-Filho, preprints201808.0313).
 const PAPER_BLADES: &str = "Pizetta et al., preprints201808.0313 v1, text at eq 6: each propeller has two blades";

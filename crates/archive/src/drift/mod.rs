@@ -65,7 +65,7 @@ pub struct RotorChange {
 pub struct Change {
     /// Later over earlier speed, less 1.
     pub change_share: f64,
-    /// Standard uncertainty of --constant-n-s2.
+    /// Its standard uncertainty.
     pub std_uncertainty_share: f64,
     /// Degrees of freedom of that uncertainty; absent where it does not come from a scatter.
     pub degrees_of_freedom: Option<f64>,

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{ForcePoint, NoScatter};
-use hovertone_exchange::{CsvError, StandGroup, StandTable, TableError};
+use hovertone_exchange::{CsvError, StandGroup, StandTable, TableError, TableNote};
 use std::path::Path;
 
 /// Weight of the heaviest vehicles that hovertone takes, 10 000 kg.
@@ -112,7 +112,9 @@ pub(super) fn without_scatter(reason: NoScatter, group: &StandGroup, table: &Sta
         _ => (String::new(), "give measured rows, not calculated rows".to_owned()),
     };
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
-    let notes: String = table.notes.iter().map(|note| format!("; {note}")).collect();
+    // which columns are read is another matter
+    let of_rows = table.notes.iter().filter(|note| !matches!(note, TableNote::Rivals { .. }));
+    let notes: String = of_rows.map(|note| format!("; {note}")).collect();
     Failure::Usage {
         what: format!("{group}{reason}{count}{notes}"),
         hint: format!(

@@ -130,7 +130,7 @@ impl LiveSummary {
             words += &format!("; for {open_s} s several speeds were possible");
         }
         if self.is_open() {
-            words += &format!("; to find the right speed, {}", advice.which_is_right());
+            words += &format!("; if a rotor sounds, {}", advice.which_is_right());
         } else if self.settled_count > 0 && !self.is_held() {
             let held_s_min = fixed(self.held_s_min, 0);
             words += &format!(
@@ -217,14 +217,14 @@ mod tests {
     #[test]
     fn what_is_not_settled_is_no_part_of_the_mean() {
         assert_eq!(told(&[(Listening, 20)]), "no speed: 2.0 s of sound are too short\n");
-        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds were possible; to find the right speed, give --rotors\n";
+        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds were possible; if a rotor sounds, give --rotors\n";
         assert_eq!(told(&[(Listening, 10), (Ambiguous, 20)]), none);
         let some = "mean: 60.00 ± 0.20 rev/s (± covers about 95 % of cases, k = 2), from 1.0 s of 3.0 s; for 1.0 s \
                     several speeds were possible\n";
         assert_eq!(told(&[(Listening, 10), (Ambiguous, 10), (Ok, 10)]), some);
         // what the later sound leaves open is open
-        let open = "no mean: one speed was clear in only 1.0 s of 3.0 s; for 1.0 s several speeds were possible; to \
-                    find the right speed, give --rotors\n";
+        let open = "no mean: one speed was clear in only 1.0 s of 3.0 s; for 1.0 s several speeds were possible; if a \
+                    rotor sounds, give --rotors\n";
         assert_eq!(told(&[(Listening, 10), (Ok, 10), (Ambiguous, 10)]), open);
         assert!(told(&[(Ok, 20), (Ambiguous, 10)]).starts_with("mean: 60.00"));
     }
@@ -238,8 +238,8 @@ mod tests {
         assert!(told(&[(Listening, 20), (NoRotorTone, 20), (Ok, 31), (NoRotorTone, 129)]).starts_with("mean: "));
         let pieces = [(Ok, 20), (NoRotorTone, 50), (Ok, 20)];
         assert!(told(&pieces).starts_with("no mean: one speed was clear in only 4.0 s of 9.0 s"));
-        let open = "no mean: one speed was clear in only 4.0 s of 10.0 s; for 5.6 s several speeds were possible; to find \
-                    the right speed, give --rotors\n";
+        let open = "no mean: one speed was clear in only 4.0 s of 10.0 s; for 5.6 s several speeds were possible; if a \
+                    rotor sounds, give --rotors\n";
         assert_eq!(told(&[(Ambiguous, 56), (NoRotorTone, 4), (Ok, 40)]), open);
     }
 

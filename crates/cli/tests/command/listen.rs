@@ -73,7 +73,7 @@ fn sound_without_a_rotor_has_no_mean() {
         (
             "small-multirotors",
             "BACKGROUND_001.wav",
-            "several speeds were possible; to find the right speed, give --diameter-m",
+            "several speeds were possible; if a rotor sounds, give --diameter-m",
         ),
         ("real", "BACKGROUND_006.flac", "a mean needs one speed for 3 s without a gap: hover for longer, or place"),
     ] {

@@ -3,7 +3,7 @@
 use super::fit::GreyBoxFit;
 use super::inputs::LoopInputs;
 use super::parameters::Parameter;
-use hovertone_vehicle::Axis;
+use hovertone_vehicle::{Axis, in_list};
 
 /// A gap of the result.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,16 +40,19 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
                 hint: doublet(axis),
             });
         }
-        if fit.estimate(Parameter::Limit(axis)).is_none() {
-            advice.push(Advice {
-                what: format!("the flight does not show the limit of {}, above which a command has no more effect: the commands were too \
-                small", axis.in_words()),
-                hint: format!(
-                    "fly {} with the largest command, or use the model only for commands as large as in this flight",
-                    axis.in_words()
-                ),
-            });
-        }
+    }
+    let is_unlimited = |axis: &Axis| inputs.has_loop[*axis as usize] && fit.estimate(Parameter::Limit(*axis)).is_none();
+    let unlimited: Vec<&str> = Axis::ALL.into_iter().filter(is_unlimited).map(Axis::in_words).collect();
+    if !unlimited.is_empty() {
+        let limits = if unlimited.len() == 1 { "limit" } else { "limits" };
+        let axes = in_list(&unlimited, "and");
+        advice.push(Advice {
+            what: format!(
+                "the flight does not show the {limits} of {axes}, above which a command has no more effect: the commands \
+                were too small"
+            ),
+            hint: format!("fly {axes} with the largest command, or use the model only for commands as large as in this flight"),
+        });
     }
     if fit.estimate(Parameter::TimeConstant).is_none() {
         advice.push(Advice {

@@ -29,7 +29,7 @@ const GRAVITY_UNKNOWN_STD_M_S2: f64 = 0.015;
 pub struct Gravity {
     /// The value.
     pub m_s2: f64,
-    /// Standard uncertainty of --constant-n-s2.
+    /// Its standard uncertainty.
     pub std_m_s2: f64,
 }
 

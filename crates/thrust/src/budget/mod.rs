@@ -90,7 +90,7 @@ pub struct BudgetLine {
     pub input: BudgetInput,
     /// Its estimate, in `unit`; 0 for a correction that is not applied.
     pub value: f64,
-    /// Standard uncertainty of --constant-n-s2, in `unit`.
+    /// Its standard uncertainty, in `unit`.
     pub std_uncertainty: f64,
     /// Its unit; "1" for a share.
     pub unit: &'static str,

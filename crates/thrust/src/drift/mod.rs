@@ -38,7 +38,7 @@ pub struct Drift {
     pub kind: DriftKind,
     /// Relative change of the constant per unit of the variable.
     pub constant_share: f64,
-    /// Standard uncertainty of --constant-n-s2.
+    /// Its standard uncertainty.
     pub std_uncertainty_share: f64,
     /// Probability of a change at least this large without any drift.
     pub p_value: f64,

@@ -47,7 +47,7 @@ pub struct AcousticScale {
 pub struct HeardHover {
     /// Shaft speed for the thrust: root mean square over the rotors where they are separated.
     pub speed: RotorSpeed,
-    /// Standard uncertainty of --constant-n-s2, where the method states one, without the uncertainty about rotors that are not separated.
+    /// Its standard uncertainty, where the method states one, without the uncertainty about rotors that are not separated.
     pub std_uncertainty_rev_s: Option<f64>,
     /// Length of the hover.
     pub hover_s: f64,
