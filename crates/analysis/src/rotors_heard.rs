@@ -1,7 +1,9 @@
 //! How the rotors of a recording are heard: each by itself, as a group, or by one tone for all.
 
-use crate::{Method, RotorTone};
+use crate::{Method, RotorTone, SpeedEstimate, TrackPoint};
+use hovertone_vehicle::ROTOR_SPREAD_SHARE;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// How a method hears the rotors of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -25,6 +27,24 @@ impl RotorTone {
             Method::Separated => RotorsHeard::Separated,
             _ => RotorsHeard::OneTone,
         })
+    }
+
+    /// The tracks that a log is compared with: those of the separated rotors, else that of the one tone. It may be the tone of any of several
+    /// rotors, so each of its points has the spread of the rotors too: for a group, whose mean is known better, that of rotors in general.
+    pub fn tracks_beside_log(&self, method: Method) -> Vec<Cow<'_, [TrackPoint]>> {
+        if !self.rotors.is_empty() {
+            return self.rotors.iter().map(|rotor| Cow::Borrowed(rotor.track.as_slice())).collect();
+        }
+        let of_speed = self.speed(method).map_or(0.0, SpeedEstimate::rotors_std_share);
+        let spread_share = match self.rotors_heard(method) {
+            Some(RotorsHeard::Group) => of_speed.max(ROTOR_SPREAD_SHARE),
+            _ => of_speed,
+        };
+        let with_spread = |point: &TrackPoint| TrackPoint {
+            std_uncertainty_rev_s: point.std_uncertainty_rev_s.hypot(spread_share * point.speed_rev_s),
+            ..*point
+        };
+        vec![self.track.iter().map(with_spread).collect()]
     }
 }
 

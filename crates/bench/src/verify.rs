@@ -9,6 +9,7 @@ use hovertone_sim::scenario::{ScenarioFile, ScenarioRun};
 use hovertone_vehicle::find_preset;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -105,10 +106,7 @@ fn heard(seed: u64) -> Result<Option<Heard>, String> {
     let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).map_err(|error| error.to_string())?;
     let Outcome::Ok(tone) = analysis.outcome else { return Ok(None) };
     let rotor_count = tone.rotors.len().max(1);
-    let mut tracks: Vec<Vec<TrackPoint>> = tone.rotors.into_iter().map(|rotor| rotor.track).collect();
-    if tracks.is_empty() {
-        tracks.push(tone.track);
-    }
+    let tracks = tone.tracks_beside_log(config.method).into_iter().map(Cow::into_owned).collect();
     Ok(Some(Heard { states, tracks, rotor_count }))
 }
 

@@ -13,7 +13,7 @@ use crate::settings::{config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
 use crate::which_speed::which_is_right;
 use hovertone::rotors::{LoggedSpeeds, NotVerified, Verification, verification_from_log};
-use hovertone::speed::{SpeedEstimate, TrackPoint};
+use hovertone::speed::TrackPoint;
 use hovertone_figures::{DOTS_PER_INCH, verification_figure};
 use hovertone_report::{
     Notice, SpeedRecord, VerificationRecord, small_plus_minus, verification_json, verification_text,
@@ -101,23 +101,13 @@ impl<'a> FigureFile<'a> {
     }
 }
 
-/// Compares a recording with a log: the tracks of the separated rotors, else of the one tone. That may be the tone of any of several rotors, so that
-/// each of its points has the uncertainty of their spread too, as the mean has.
+/// Compares a recording with a log.
 pub(crate) fn verification_of(
     record: &SpeedRecord,
     logged: LoggedSpeeds<'_>,
     offsets_s: Option<[f64; 2]>,
 ) -> Result<Verification, NotVerified> {
-    let separated: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
-    if !separated.is_empty() {
-        return verification_from_log(&separated, logged, offsets_s);
-    }
-    let spread_share = record.speed().map_or(0.0, SpeedEstimate::rotors_std_share);
-    let with_spread = |point: &TrackPoint| TrackPoint {
-        std_uncertainty_rev_s: point.std_uncertainty_rev_s.hypot(spread_share * point.speed_rev_s),
-        ..*point
-    };
-    let of_tone: Option<Vec<TrackPoint>> = record.tone().map(|tone| tone.track.iter().map(with_spread).collect());
-    let of_tone: Vec<&[TrackPoint]> = of_tone.iter().map(Vec::as_slice).collect();
-    verification_from_log(&of_tone, logged, offsets_s)
+    let tracks = record.tone().map_or_else(Vec::new, |tone| tone.tracks_beside_log(record.method));
+    let tracks: Vec<&[TrackPoint]> = tracks.iter().map(AsRef::as_ref).collect();
+    verification_from_log(&tracks, logged, offsets_s)
 }
