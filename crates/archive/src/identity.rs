@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 const DIFFERENCES_MAX: usize = 4;
 
 /// Version of the parts and tables. It rises when their columns change.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// Inputs and settings of a batch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

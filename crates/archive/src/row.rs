@@ -43,6 +43,9 @@ fn answer_columns(columns: Columns<'_, ArchiveRow>) -> Columns<'_, ArchiveRow> {
         .texts(plain("warnings", "what weakens the answer, each with its hint"), |row| {
             row.record.notices.iter().map(ToString::to_string).collect()
         })
+        .flag(plain("is_doubtful", "whether the speed must not be used: it contradicts the given facts"), |row| {
+            Some(row.record.is_doubtful())
+        })
 }
 
 fn heard_name(heard: RotorsHeard) -> &'static str {

@@ -40,8 +40,10 @@ pub struct Summary {
     pub rotors: Vec<RotorSummary>,
     /// From the start to the end of the used hover.
     pub used_s: Option<(f64, f64)>,
-    /// Number of warnings.
-    pub warning_count: usize,
+    /// What weakens the answer.
+    pub warnings: Vec<String>,
+    /// Whether the speed must not be used.
+    pub is_doubtful: bool,
     /// Whether the file ends before its sound does.
     pub is_prefix: bool,
 }
@@ -86,6 +88,8 @@ pub fn summaries_of(batch: &RecordBatch) -> Result<Vec<Summary>, ArchiveError> {
     let facts: &StructArray =
         batch.column_by_name("recording").and_then(|column| column.as_struct_opt()).ok_or(missing("recording"))?;
     let (rotors, budget, warnings) = (list("rotors")?, list("uncertainty_budget")?, list("warnings")?);
+    // earlier tables do not have it
+    let is_doubtful = batch.column_by_name("is_doubtful").and_then(|column| column.as_boolean_opt());
     (0..batch.num_rows())
         .map(|row| {
             Ok(Summary {
@@ -97,7 +101,8 @@ pub fn summaries_of(batch: &RecordBatch) -> Result<Vec<Summary>, ArchiveError> {
                 clock_std_rev_s: clock_std_rev_s(budget, row)?,
                 rotors: rotors_of(rotors, row)?,
                 used_s: value(from_s, row).zip(value(to_s, row)),
-                warning_count: warnings.value(row).len(),
+                warnings: texts_of(warnings, row)?,
+                is_doubtful: is_doubtful.is_some_and(|column| column.is_valid(row) && column.value(row)),
                 is_prefix: is_prefix(facts, row)?,
             })
         })
@@ -154,6 +159,12 @@ fn clock_std_rev_s(budget: &ListArray, row: usize) -> Result<f64, ArchiveError> 
     let std_rev_s = number_of(terms.column_by_name("std_uncertainty_rev_s"), "std_uncertainty_rev_s")?;
     let clock = (0..terms.len()).filter(|term| source.value(*term) == "clock");
     Ok(clock.filter_map(|term| value(std_rev_s, term)).map(|std| std * std).sum::<f64>().sqrt())
+}
+
+fn texts_of(texts: &ListArray, row: usize) -> Result<Vec<String>, ArchiveError> {
+    let texts = texts.value(row);
+    let texts: &StringArray = texts.as_string_opt::<i32>().ok_or(missing("warnings"))?;
+    Ok(texts.iter().flatten().map(str::to_owned).collect())
 }
 
 fn is_prefix(facts: &StructArray, row: usize) -> Result<bool, ArchiveError> {

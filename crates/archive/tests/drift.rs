@@ -41,7 +41,8 @@ fn archive(drawn: Drawn, random: &mut Pcg64) -> Vec<Summary> {
         clock_std_rev_s: CLOCK_STD_SHARE * SPEED_REV_S,
         rotors: vec![rotor(1.01), rotor(1.0 + drawn.change_share)],
         used_s: Some((0.0, 2.0)),
-        warning_count: 0,
+        warnings: Vec::new(),
+        is_doubtful: false,
         is_prefix: false,
     };
     (0..drawn.count).map(recording).collect()

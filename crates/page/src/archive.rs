@@ -49,8 +49,10 @@ pub struct ArchiveRecording {
     pub rotors: Vec<HeardSpeed>,
     /// From the start to the end of the used hover.
     pub used_s: Option<(f64, f64)>,
-    /// Number of warnings.
-    pub warning_count: usize,
+    /// What weakens the answer.
+    pub warnings: Vec<String>,
+    /// Whether the speed must not be used.
+    pub is_doubtful: bool,
     /// A small spectrogram as the URI of a PNG.
     pub picture: Option<String>,
 }
@@ -59,7 +61,8 @@ impl ArchiveRecording {
     /// Class, sign and meaning of the status.
     fn mark(&self) -> (&'static str, &'static str, &'static str) {
         match self.status.as_str() {
-            "ok" if self.warning_count == 0 => ("holds", "✓", "done"),
+            "ok" if self.is_doubtful => ("fails", "!", "do not use"),
+            "ok" if self.warnings.is_empty() => ("holds", "✓", "done"),
             "ok" => ("doubt", "!", "done, with warnings"),
             "ambiguous" => ("doubt", "?", "ambiguous"),
             "error" => ("fails", "✗", "could not be heard"),
@@ -69,6 +72,16 @@ impl ArchiveRecording {
 
     fn name(&self) -> String {
         printable(&self.file)
+    }
+
+    /// Why there is no speed, or none to use.
+    fn why(&self) -> String {
+        let warnings = || if self.is_doubtful { self.warnings.join("; ") } else { String::new() };
+        self.reason.clone().unwrap_or_else(warnings)
+    }
+
+    fn warnings_in_lines(&self) -> String {
+        self.warnings.join("\n")
     }
 
     fn tone(&self) -> String {
@@ -182,7 +195,8 @@ mod tests {
             speed: Some(HeardSpeed { speed_rev_s: 60.0, std_rev_s: Some(0.01) }),
             rotors: Vec::new(),
             used_s: Some((0.0, 2.0)),
-            warning_count: 0,
+            warnings: Vec::new(),
+            is_doubtful: false,
             picture: Some("data:image/png;base64,AAAA".to_owned()),
         }
     }

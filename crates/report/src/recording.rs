@@ -1,6 +1,6 @@
 //! The record of one recording: its facts and its result.
 
-use crate::notice::Notice;
+use crate::notice::{Notice, NoticeKind};
 use crate::wording::Wording;
 use hovertone_analysis::{
     Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
@@ -245,6 +245,12 @@ impl SpeedRecord {
             || self.notices.iter().any(|notice| notice.kind.is_incomplete())
             || !has_labels
             || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
+    }
+
+    /// Whether it has a speed that must not be used: the sound contradicts the given facts, or no multirotor could fly like this.
+    pub fn is_doubtful(&self) -> bool {
+        let forbids = |notice: &Notice| matches!(notice.kind, NoticeKind::Impossible | NoticeKind::CannotHover);
+        self.speed().is_some() && (self.contradiction().is_some() || self.notices.iter().any(forbids))
     }
 
     /// From the start of the first used stretch to the end of the last.

@@ -1,6 +1,6 @@
 //! All recordings that are not finished, one on each core at a time.
 
-use super::counts::Counts;
+use super::counts::{Counted, Counts};
 use super::folder::BatchFolder;
 use super::inputs::Names;
 use crate::failure::Failure;
@@ -55,7 +55,7 @@ pub(crate) fn hear_missing(plan: &Plan, folder: &BatchFolder, manner: &Manner) -
         missing.par_iter().try_for_each(|recording| {
             let row = heard_row(recording, manner, folder, &progress)?;
             let mut counts = counts.lock().unwrap_or_else(PoisonError::into_inner);
-            counts.add(row.record.status(), row.record.recording.as_ref().is_some_and(|facts| facts.is_prefix));
+            counts.add(Counted::from(&row.record));
             progress.say(format!("{} of {}: {counts}", counts.total(), missing.len()));
             Ok(())
         })

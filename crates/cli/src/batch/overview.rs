@@ -29,7 +29,8 @@ impl<'a> Overview<'a> {
             reason: summary.reason,
             tone_hz: summary.tone_hz,
             used_s: summary.used_s,
-            warning_count: summary.warning_count,
+            warnings: summary.warnings,
+            is_doubtful: summary.is_doubtful,
             picture,
         });
     }

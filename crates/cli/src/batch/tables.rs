@@ -1,12 +1,13 @@
 //! The tables of a batch, from the parts of all recordings in the order of their names.
 
-use super::counts::Counts;
+use super::counts::{Counted, Counts};
 use super::folder::BatchFolder;
 use super::overview::Overview;
 use crate::failure::Failure;
 use crate::output_file::{OutputFile, remove_written};
 use hovertone_archive::{ArchiveError, BatchIdentity, Part, Plan, RecordingsTable, TracksTable};
 use hovertone_report::{Notice, counted};
+use hovertone_vehicle::in_list;
 use serde_json::Value;
 use std::fs::File;
 use std::io::BufWriter;
@@ -39,12 +40,20 @@ pub(crate) struct Written {
 impl Written {
     /// Which recordings have no sure speed, and what to do; `None` where all have one.
     pub(crate) fn notice_of_unsure(&self, overview: &Path) -> Option<Notice> {
-        let count = self.counts.ambiguous + self.counts.no_rotor_tone;
+        let count = self.counts.unsure();
         let has = if count == 1 { "has" } else { "have" };
         let more = if count > self.unsure.len() { ", …" } else { "" };
+        let Counts { ambiguous, no_rotor_tone, doubtful, .. } = self.counts;
+        let kinds = [
+            (no_rotor_tone, "no speed"),
+            (ambiguous, "several possible speeds"),
+            (doubtful, "a speed that contradicts the given facts"),
+        ];
+        let kinds: Vec<&str> = kinds.into_iter().filter(|(count, _)| *count > 0).map(|(_, kind)| kind).collect();
         let text = format!(
-            "{} {has} no speed, or several possible speeds: {}{more}",
+            "{} {has} {}: {}{more}",
             counted(count, "recording"),
+            in_list(&kinds, "or"),
             self.unsure.join(", ")
         );
         let hint = format!(
@@ -72,12 +81,13 @@ pub(crate) fn write_tables(
     for recording in plan.recordings() {
         let part = folder.part(recording)?;
         let summary = part.summary().map_err(Failure::internal)?;
-        counts.add(&summary.status, summary.is_prefix);
+        let heard = Counted::from(&summary);
+        counts.add(heard);
         if summary.status == Counts::ERROR && failed.len() < FAILED_NAMED_MAX {
             failed
                 .push(Notice::new(format!("{}: {}", summary.file, summary.reason.as_deref().unwrap_or_default()), ""));
         }
-        if Counts::is_unsure(&summary.status) && unsure.len() < UNSURE_NAMED_MAX {
+        if heard.is_unsure() && unsure.len() < UNSURE_NAMED_MAX {
             unsure.push(summary.file.clone());
         }
         recordings.table.push(&part).map_err(|error| cannot_write(error, &recordings.output))?;
@@ -172,10 +182,12 @@ mod tests {
 
     #[test]
     fn five_recordings_without_a_sure_speed_are_named() {
+        let of_status =
+            |status: &'static str| Counted { status, is_prefix: false, is_doubtful: false, has_warnings: false };
         let notice = |count: usize| {
             let mut written = Written { counts: Counts::default(), failed: Vec::new(), unsure: Vec::new() };
             for number in 0..count {
-                written.counts.add(["ambiguous", "no_rotor_tone"][number % 2], false);
+                written.counts.add(of_status(["ambiguous", "no_rotor_tone"][number % 2]));
                 written.unsure.push(format!("{number}.wav"));
             }
             written.unsure.truncate(UNSURE_NAMED_MAX);
@@ -184,16 +196,18 @@ mod tests {
         assert_eq!(notice(0), None);
         assert_eq!(
             notice(1).map(|notice| notice.text),
-            Some("1 recording has no speed, or several possible speeds: 0.wav".to_owned())
+            Some("1 recording has several possible speeds: 0.wav".to_owned())
         );
-        let seven = "7 recordings have no speed, or several possible speeds: 0.wav, 1.wav, 2.wav, 3.wav, 4.wav, …";
+        let seven = "7 recordings have no speed or several possible speeds: 0.wav, 1.wav, 2.wav, 3.wav, 4.wav, …";
         let said = notice(7).map(|notice| (notice.text, notice.hint));
         assert!(
             said.as_ref().is_some_and(|(text, hint)| text == seven && hint.contains("out/overview.html")),
             "{said:?}"
         );
         assert!(
-            ["ok", Counts::ERROR].iter().all(|status| !Counts::is_unsure(status)) && Counts::is_unsure("ambiguous")
+            !["ok", Counts::ERROR].into_iter().map(of_status).any(Counted::is_unsure)
+                && of_status("ambiguous").is_unsure()
+                && Counted { is_doubtful: true, ..of_status("ok") }.is_unsure()
         );
     }
 }
