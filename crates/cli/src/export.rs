@@ -98,11 +98,13 @@ fn change(
     };
     say_unused(rotor, arguments, &why, |rotor| Ok(updated_model(&text, rotor)?.text), terminal);
     let place = arguments.output.as_deref().unwrap_or(model);
-    if updated.changes.is_empty() && arguments.output.is_none() {
+    if updated.changes.is_empty() {
         terminal
             .say(&format!("nothing to change: {} has this constant already", printable(&model.display().to_string())));
-        say_other_mass(before.mass_kg, rotor.mass_kg, terminal);
-        return Ok(Ending::Done);
+        if arguments.output.is_none() {
+            say_other_mass(before.mass_kg, rotor.mass_kg, terminal);
+            return Ok(Ending::Done);
+        }
     }
     match &arguments.output {
         Some(output) => {
@@ -110,7 +112,9 @@ fn change(
         }
         None => Outputs::beside([&arguments.results], true).write(model, &updated.text)?,
     }
-    terminal.data(&difference(model, place, &updated.changes))?;
+    if !updated.changes.is_empty() {
+        terminal.data(&difference(model, place, &updated.changes))?;
+    }
     terminal.flush()?;
     terminal.say(&written(place));
     if let Some(notice) = stale_comments(&updated.lines_with_old_number()) {

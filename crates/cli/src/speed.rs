@@ -73,7 +73,7 @@ fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], termi
     if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
         let what = format!("hovertone found {count} rotors by itself, because their number is not given");
         let hint = format!(
-            "if your vehicle has {count} rotors, all is well; if not, give their number, as in --rotors 6, and --rotors 1 \
+            "if your vehicle has {count} rotors, you need to do nothing; if not, give their number, as in --rotors 6, and --rotors 1 \
              where one runs alone"
         );
         terminal.tip(&Notice::new(what, hint));

@@ -119,7 +119,10 @@ fn syntax(message: &str) -> Option<PlainFault> {
         ));
     }
     if is("string values must be quoted") {
-        return Some(PlainFault::new("has text without quotes", "write it as \"text\""));
+        return Some(PlainFault::new(
+            "has text without quotes, or a number with a unit",
+            "write text as \"text\", and a number without its unit: 0.413 for 413 g where the name ends in _kg",
+        ));
     }
     if message.starts_with("extra `") && message.ends_with("expected nothing") {
         return Some(PlainFault::new("has more than one = on this line", "write one key and one value on each line"));

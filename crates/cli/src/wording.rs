@@ -17,7 +17,7 @@ const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     (
         "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with \
          --rotors; ",
-        "C_f uses their mean speed, and its ± allows for this; ",
+        "C_f uses the mean speed of all rotors, and its ± allows for this; ",
     ),
     OTHER_ROTORS_IN_FLIGHT,
     ("under [samples] in the experiment file", "under [samples] in DIR/experiment.toml, which -o DIR writes"),
@@ -122,7 +122,7 @@ mod tests {
             spread_share: 0.006,
         };
         for (has_mean, begins) in [
-            (true, "C_f uses their mean speed, and its ± allows for this; "),
+            (true, "C_f uses the mean speed of all rotors, and its ± allows for this; "),
             (false, "C_f is still valid, and its ± allows for this; "),
         ] {
             let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());

@@ -14,16 +14,21 @@
 //! # Ok::<(), hovertone::vehicle::QuantityError>(())
 //! ```
 
-use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Order, QuantityError, RotorSpeed};
+use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Order, QuantityError, RotorSpeed};
 
 /// *Numeric.*
 const MILLION: f64 = 1e6;
-/// Standard uncertainties at which a heard and a known speed differ. *Decision.*
-const COVERAGE: f64 = 3.0;
+/// Standard uncertainties at which a heard and a known speed differ: those of the ± that is told. *Physics.*
+const COVERAGE: f64 = 2.0;
 /// Smallest standard uncertainty of a correction, in millionths: audio samples in single precision. *Numeric.*
 const STD_PPM_MIN: f64 = 0.05;
 /// Largest order that is offered in place of a wrong one: the teeth of a large gear wheel. *Decision.*
 const ORDER_MAX: f64 = 200.0;
+
+/// Teeth by which somebody may miscount a wheel. *Decision.*
+const TEETH_MORE_OR_LESS: f64 = 2.0;
+/// Largest part of a simple ratio of orders: a tachometer may be set for 3 blades where there are 2. *Decision.*
+const MULTIPLE_MAX: u32 = 4;
 
 /// A speed that another instrument measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +125,7 @@ pub fn check_against(
     let nearest = lines.round();
     let (relation, ratio_of_clock) = if fits(ratio) {
         (Relation::Agrees, ratio)
-    } else if (1.0..=ORDER_MAX).contains(&nearest) && fits(lines / nearest) {
+    } else if (1.0..=ORDER_MAX).contains(&nearest) && fits(lines / nearest) && may_be_meant(nearest, order) {
         (Relation::OtherOrder(Order::new(nearest)?), lines / nearest)
     } else {
         (Relation::None, ratio)
@@ -131,6 +136,15 @@ pub fn check_against(
         correction_ppm: correction_ppm(ratio_of_clock),
         correction_std_ppm,
     })
+}
+
+/// Whether somebody may have taken one order for the other: for blades, a few teeth more or less, or a simple multiple. Among large orders, some
+/// one fits any ratio by chance.
+fn may_be_meant(lines: f64, given: Order) -> bool {
+    let given = given.lines_per_turn();
+    let is_multiple = |[part, of]: [f64; 2]| (lines * of - given * part).abs() < 0.5;
+    let parts = (1..=MULTIPLE_MAX).flat_map(|part| (1..=MULTIPLE_MAX).map(move |of| [f64::from(part), f64::from(of)]));
+    lines <= BLADES_MAX || (lines - given).abs() <= TEETH_MORE_OR_LESS || parts.into_iter().any(is_multiple)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::typeset::TitledTable;
 use hovertone_analysis::{OtherRotor, Warning};
 use hovertone_dynamics::{Advice, Checked, GreyBoxFit, Parameter, TorqueConstant};
 use hovertone_thrust::COVERAGE_FACTOR;
-use hovertone_vehicle::{Axis, Estimate, RotorSpeed};
+use hovertone_vehicle::{Axis, Estimate, RotorSpeed, in_list};
 
 const MS_PER_S: f64 = 1e3;
 const PERCENT: f64 = 100.0;
@@ -57,6 +57,21 @@ impl GreyBoxRecord {
     pub fn are_names_doubtful(&self) -> bool {
         self.names_nats.is_some_and(|nats| nats < NAMES_NATS_MIN)
     }
+
+    /// Whether something speaks against the model, so that its numbers may be wrong by more than their ±.
+    pub fn is_doubtful(&self) -> bool {
+        let has_other = self.better.is_some() || self.other_hover.is_some();
+        has_other || self.are_names_doubtful() || !self.axes_of_negative_gains().is_empty()
+    }
+
+    /// The loops whose command answers an error in the wrong direction.
+    fn axes_of_negative_gains(&self) -> Vec<&'static str> {
+        let is_negative = |axis: &Axis| {
+            let told = self.fit.estimate(Parameter::Proportional(*axis));
+            told.is_some_and(|told| told.value < -COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0))
+        };
+        Axis::ALL.into_iter().filter(is_negative).map(Axis::in_words).collect()
+    }
 }
 
 /// The check on another flight.
@@ -100,7 +115,9 @@ pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
 
 /// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
 pub(crate) fn trust(record: &GreyBoxRecord) -> &'static str {
-    if record.are_speeds_logged {
+    if record.is_doubtful() {
+        "the numbers may be wrong by more than their ±: the warnings name the reason"
+    } else if record.are_speeds_logged {
         "the ± is about right: in simulated flights, 90 to 100 % of the errors were within it, and 95 % should be"
     } else {
         "the ± is a little too small: in simulated flights outdoors, 83 to 91 % of the errors were within it, and 95 % should be; compare with another flight (--check)"
@@ -110,26 +127,25 @@ pub(crate) fn trust(record: &GreyBoxRecord) -> &'static str {
 /// Lines beside the tables: what to trust, C_τ, rank, gaps, checks.
 pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
     let advice = record.advice.iter().map(|advice| format!("{}; {}", advice.what, advice.hint));
-    let torque = torque_line(&record.torque_constant).trim_end().to_owned();
+    // with loops in the wrong direction, it says nothing of the torque
+    let has_torque = record.axes_of_negative_gains().is_empty();
+    let torque = has_torque.then(|| torque_line(&record.torque_constant).trim_end().to_owned());
     let checks = check_lines(record);
     let checks = checks.lines().map(str::to_owned);
     let moved = moved_in_words(&record.log, record.log_moved_s);
-    [trust(record).to_owned(), torque, rank_line(record)].into_iter().chain(moved).chain(checks).chain(advice).collect()
+    let first = std::iter::once(trust(record).to_owned()).chain(torque);
+    first.chain([rank_line(record)]).chain(moved).chain(checks).chain(advice).collect()
 }
 
 /// What speaks against the model: gains that no controller has, and a rotor of another vehicle.
 pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
-    let is_negative = |axis: &Axis| {
-        let told = record.fit.estimate(Parameter::Proportional(*axis));
-        told.is_some_and(|told| told.value < -COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0))
-    };
-    let axes: Vec<&str> = Axis::ALL.into_iter().filter(is_negative).map(Axis::in_words).collect();
+    let axes = record.axes_of_negative_gains();
     let gains = (!axes.is_empty()).then(|| {
         let (gains, are) = if axes.len() > 1 { ("gains", "are") } else { ("gain", "is") };
         let what = format!(
             "the {gains} k_p of {} {are} negative (the command answers an error in the wrong direction), and no \
             vehicle can fly with negative gains",
-            axes.join(" and ")
+            in_list(&axes, "and")
         );
         Notice::new(what, "check --log-axes, and the signs of the commands and of the measured values in the log")
     });

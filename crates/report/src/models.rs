@@ -76,14 +76,14 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
         Column::words("model"),
         Column::words("constant"),
         Column::numbers("C_f, one rotor", &unit.unit(CONSTANT_UNIT)),
-        Column::numbers("model / heard", ""),
+        Column::numbers("model / measured", ""),
         Column::numbers("its mass", "g"),
         Column::numbers("hovers at", "rpm"),
     ]);
     let rpm = |rad_s: Option<f64>| rad_s.map_or(DASH.to_owned(), |s| format!("{:.0}", RotorSpeed::from_rad_s(s).rpm()));
     text.push(vec![
         heard.vehicle_name.clone(),
-        "as heard".to_owned(),
+        "as measured".to_owned(),
         significant(unit.scale(heard.thrust_constant_n_s2), 5),
         "1".to_owned(),
         heard.mass_kg.map_or(DASH.to_owned(), grams),
@@ -103,7 +103,7 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
     if let Some(expanded) = heard.expanded_uncertainty_n_s2 {
         let percent = 100.0 * expanded / heard.thrust_constant_n_s2;
         words += &format!(
-            "the ± of the heard constant is {percent:.2} % (k = 2); each speed is the one at which the heard vehicle hovers\n"
+            "the ± of the measured constant is {percent:.2} % (k = 2); the last column: the speed at which the measured vehicle would hover with the constant of the row\n"
         );
     }
     words
@@ -115,15 +115,15 @@ pub fn vehicle_model_text(model: &VehicleModel, heard: &ThrustTable) -> String {
     let unit = PowerOfTen::of([against.thrust_constant_per_rotor_n_s2]);
     let verdict = match (against.agrees, against.expanded_share) {
         (Some(true), Some(share)) => {
-            format!("; this is within the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share)
+            format!("; this is within the ± of the measured constant, ±{:.2} % (k = 2)", 100.0 * share)
         }
         (Some(false), Some(share)) => {
-            format!("; this is outside the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share)
+            format!("; this is outside the ± of the measured constant, ±{:.2} % (k = 2)", 100.0 * share)
         }
         _ => String::new(),
     };
     format!(
-        "{} ({}): C_f of one rotor {} {} at {:.0} rpm, {} % from the heard constant{verdict}\n",
+        "{} ({}): C_f of one rotor {} {} at {:.0} rpm, {} % from the measured constant{verdict}\n",
         printable(&model.file),
         model.format,
         significant(unit.scale(against.thrust_constant_per_rotor_n_s2), 5),

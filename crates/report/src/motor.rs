@@ -56,11 +56,11 @@ pub struct MotorSound {
 }
 
 impl MotorSound {
-    /// The number that says which tone is followed, with its flag.
+    /// The flag that says which tone is followed, with its number.
     fn given_number(&self) -> Option<String> {
         match (self.blades, self.order) {
-            (Some(blades), _) => Some(format!("the number of blades (--blades {blades})")),
-            (None, Some(order)) => Some(format!("the order of the tone (--order {order})")),
+            (Some(blades), _) => Some(format!("--blades {blades}")),
+            (None, Some(order)) => Some(format!("--order {order}")),
             (None, None) => None,
         }
     }
@@ -101,7 +101,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
-        text += "the log has too few rows for a time constant: a motor reaches its speed within 300 ms, and 3 rows or more must lie in this time\n";
+        text += "the rows of this log are too far apart for a time constant; log the speeds every 100 ms or faster: every 20 ms is good\n";
     } else if !has_steps {
         text += match record.source {
             MotorSource::Log => "no step: the speed never changes from one steady value to another\n",
@@ -113,7 +113,10 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     if let MotorSource::Sound(sound) = &record.source
         && let Some(number) = sound.given_number().filter(|_| !record.has_time_constant())
     {
-        text += &format!("check {number}: with a wrong number, hovertone may follow another tone and miss steps\n");
+        text += &format!(
+            "if a step is missing: does the part that is heard hold it, and is {number} right? With a wrong number, hovertone may \
+            follow another tone\n"
+        );
     }
     if has_steps {
         text += &format!("\n{}", table_text(&steps_table(record), width));

@@ -138,7 +138,11 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
     match found.near_ratio {
         _ if found.is_right() => None,
         Some(ratio) => Some(Notice::new(
-            format!("the heard speeds are {} times the logged speeds", significant(ratio, 3)),
+            format!(
+                "the heard speeds are {} times the logged speeds, near {}",
+                significant(found.speed_ratio, 3),
+                fraction_in_words(ratio)
+            ),
             "check the number of blades (or the gear); check the number of pole pairs in the \
             ESC's settings; check that the log is of this flight",
         )),
@@ -148,6 +152,14 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
             the log is of this flight",
         )),
     }
+}
+
+/// "3/2", "2".
+fn fraction_in_words(ratio: f64) -> String {
+    let parts = [(1.0, "", ratio), (2.0, "/2", ratio), (3.0, "/3", ratio), (4.0, "/4", ratio)];
+    let whole =
+        parts.into_iter().find(|(part, _, ratio)| (part * ratio).fract() < 1e-9 || (part * ratio).fract() > 1.0 - 1e-9);
+    whole.map_or_else(|| significant(ratio, 3), |(part, over, ratio)| format!("{:.0}{over}", part * ratio))
 }
 
 /// Why equal means prove nothing.

@@ -22,7 +22,7 @@ impl Wording {
             ("--harmonics 1", "harmonics = 1 under [tone]"),
             (
                 "the speed is the mean of all rotors, and its ± allows for this",
-                "C_f uses their mean speed, and its ± allows for this",
+                "C_f uses the mean speed of all rotors, and its ± allows for this",
             ),
             (
                 "to separate them and get a smaller ±, ",

@@ -45,10 +45,12 @@ pub(super) fn plan_campaign(
         },
     };
     let plan = flight_plan(&wish).map_err(|error| {
-        let hint = match error {
-            PlanError::OutOfReach { largest, .. } => hint_against(largest),
-            PlanError::Quantity(QuantityError { name: "wanted_share", .. }) => "for 2 % give --wanted-share 0.02",
-            _ => "see `hovertone fit --help`",
+        let hint = match &error {
+            PlanError::OutOfReach { largest, .. } => hint_against(*largest).to_owned(),
+            PlanError::Quantity(QuantityError { name: "wanted_share", value, .. }) if *value >= 0.5 => {
+                format!("for {value} % give --wanted-share {}", value / 100.0)
+            }
+            _ => "see `hovertone fit --help`".to_owned(),
         };
         Failure::usage(error.to_string(), hint)
     })?;

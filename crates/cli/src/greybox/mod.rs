@@ -82,8 +82,7 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
         outputs.write(place, kind.bytes(figure, DOTS_PER_INCH)?)?;
         terminal.say(&written(place));
     }
-    let is_sure = losses.is_empty() && heard.other_hover.is_none() && !record.are_names_doubtful();
-    Ok(if is_sure { Ending::Done } else { Ending::Incomplete })
+    Ok(if losses.is_empty() && !record.is_doubtful() { Ending::Done } else { Ending::Incomplete })
 }
 
 /// A flight that was not used for the fit.

@@ -20,7 +20,7 @@ fn identify_names_keys_of_its_file_and_flags_of_its_own() {
     assert!(!by_file.stderr.contains("--"), "{}", by_file.stderr);
     let load = format!("413g={}", text(&sound));
     let by_flags = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(0);
-    assert!(by_flags.stderr.contains("C_f uses their mean speed"), "{}", by_flags.stderr);
+    assert!(by_flags.stderr.contains("C_f uses the mean speed of all rotors"), "{}", by_flags.stderr);
     assert!(!by_flags.stderr.contains("--rotors"), "{}", by_flags.stderr);
 
     write_noise(&sound, 3.0);

@@ -280,15 +280,13 @@ fn a_recording_heard_with_the_wrong_blades_asks_to_check_them() {
         run.stdout
     );
     assert!(!run.stdout.contains("the log has"), "{}", run.stdout);
-    assert!(run.stdout.contains("check the number of blades (--blades 4)"), "{}", run.stdout);
+    assert!(run.stdout.contains("is --blades 4 right?"), "{}", run.stdout);
     let run = told(&["--blades", "3", "--rotors", "1"]).ends_with(3);
-    for words in
-        ["no step is heard: the tone that is followed never changes", "check the number of blades (--blades 3)"]
-    {
+    for words in ["no step is heard: the tone that is followed never changes", "is --blades 3 right?"] {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
     let run = told(&["--order", "1"]).ends_with(3);
-    assert!(run.stdout.contains("check the order of the tone (--order 1)"), "{}", run.stdout);
+    assert!(run.stdout.contains("is --order 1 right?"), "{}", run.stdout);
     let run = told(&["--blades", "2", "--rotors", "1"]).ends_with(0);
-    assert!(!run.stdout.contains("check the number of blades"), "{}", run.stdout);
+    assert!(!run.stdout.contains("right? With a wrong number"), "{}", run.stdout);
 }

@@ -48,10 +48,9 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         let axes = in_list(&unlimited, "and");
         advice.push(Advice {
             what: format!(
-                "the flight does not show the {limits} of {axes}, above which a command has no more effect: the commands \
-                were too small"
+                "the flight does not show the {limits} of {axes}, above which a command has no more effect: it stays below"
             ),
-            hint: format!("fly {axes} with the largest command, or use the model only for commands as large as in this flight"),
+            hint: format!("use the model only for commands as large as in this flight"),
         });
     }
     if fit.estimate(Parameter::TimeConstant).is_none() {

@@ -75,9 +75,7 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
 
 /// The line about a torque that was not measured.
 pub(super) fn missing_torque(name: &str) -> String {
-    format!(
-        "{name}: MISSING. Sound shows the thrust, not the torque: measure the torque, or keep the value of your model"
-    )
+    format!("{name}: MISSING. The thrust does not tell the torque: measure the torque, or keep the value of your model")
 }
 
 /// The lines with a comment sign in front.

@@ -11,7 +11,11 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
     if let Some(mass_kg) = rotor.mass_kg {
         text += &format!("    'mass': {},  # kg\n", plain(mass_kg));
     }
-    text += &format!("    'num_rotors': {},\n", rotor.rotor_count);
+    // a rotor of a stand is one of a vehicle that has more
+    text += &match rotor.rotor_count {
+        1 => "    # 'num_rotors': one rotor was measured alone: keep the number of your vehicle\n".to_owned(),
+        count => format!("    'num_rotors': {count},\n"),
+    };
     if let Some(diameter_m) = rotor.propeller_diameter_m {
         text += &format!("    'rotor_radius': {},  # m\n", plain(diameter_m / 2.0));
     }

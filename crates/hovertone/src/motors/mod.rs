@@ -146,7 +146,11 @@ fn motor_of_track(track: &QuickTrack) -> HeardMotor {
 fn model_of(motor: &HeardMotor, command: Option<CommandSeries<'_>>) -> Option<MotorModel> {
     let config = MotorConfig { frame_s: motor.frame_s, ..MotorConfig::default() };
     let series = MotorSeries { time_s: &motor.time_s, speed_rev_s: &motor.speed_rev_s };
-    motor_from_series(series, command, &config)
+    let model = motor_from_series(series, command, &config)?;
+    // where no motor turns, the track follows other sound: only what the steps lead to is a speed of the motor
+    let levels = model.steps.iter().map(|step| step.speed_from_rev_s.max(step.speed_to_rev_s));
+    let speed_rev_s_max = levels.reduce(f64::max).unwrap_or(model.speed_rev_s_max);
+    Some(MotorModel { speed_rev_s_max, ..model })
 }
 
 fn with_commands(motor: HeardMotor, commands: HeardCommands<'_>) -> HeardMotor {

@@ -26,6 +26,7 @@ use crate::statistics::{mean, std, student_factor};
 use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
 use hovertone_analysis::{Method, RotorsHeardCounts};
+use hovertone_vehicle::AIR_KG_M3;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 use row_misfits::warnings_of_misfits;
 
@@ -53,15 +54,18 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
     let trials: usize = campaign.loads.iter().map(|load| load.trials_rad_s.len()).sum();
     let total = fit.as_ref().zip(budget.as_ref()).map(|(fit, budget)| answer(fit, budget, trials)).or(plain);
     let per_rotor = total.map(|total| total.scaled(1.0 / f64::from(rotor_count)));
-    let air = settings.propeller_diameter_m.zip(settings.air_density_kg_m3);
-    let coefficients = per_rotor
-        .zip(air)
-        .map(|(constant, (diameter_m, density))| ThrustCoefficients::of_rotor(constant.value, diameter_m, density));
+    let propeller = per_rotor.zip(settings.propeller_diameter_m);
+    let in_air = |density_kg_m3: f64| {
+        propeller.map(|(of_rotor, diameter_m)| ThrustCoefficients::of_rotor(of_rotor.value, diameter_m, density_kg_m3))
+    };
+    let coefficients = settings.air_density_kg_m3.and_then(in_air);
     let drifts = drifts(&campaign);
     let mut warnings = warnings_of(&campaign, loads, &rows, fit.as_ref());
     warnings.extend(drifts.iter().copied().map(ThrustWarning::ConstantDrifts));
+    // the air of any place is near enough to tell what no propeller has
     warnings.extend(
         coefficients
+            .or(in_air(AIR_KG_M3))
             .filter(|coefficients| !coefficients.is_plausible)
             .map(|coefficients| ThrustWarning::ImplausibleThrustCoefficient { propeller: coefficients.propeller }),
     );
