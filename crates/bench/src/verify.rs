@@ -1,9 +1,9 @@
 //! `cargo run --release -p hovertone-bench -- verify`: sound against telemetry on simulated flights. Prints the tables of `docs/verify.md`. Run by
 //! people; its test flies fewer.
 
-use hovertone::rotors::{LoggedSpeeds, Verification, verification_from_log};
+use hovertone::rotors::{LoggedSpeeds, Verification, verification_from_log, verification_of_group};
 use hovertone::sound::Signal;
-use hovertone::speed::{Config, Method, Outcome, ToneConfig, TrackPoint, speed_from_source};
+use hovertone::speed::{Config, Method, Outcome, RotorsHeard, ToneConfig, TrackPoint, speed_from_source};
 use hovertone_sim::FlightState;
 use hovertone_sim::scenario::{ScenarioFile, ScenarioRun};
 use hovertone_vehicle::find_preset;
@@ -52,6 +52,8 @@ struct Heard {
     tracks: Vec<Vec<TrackPoint>>,
     /// Number of rotors that the tracks are of; 1 for the one tone of all.
     rotor_count: usize,
+    /// Whether the one tone is that of a group.
+    is_group: bool,
 }
 
 /// A log against the tracks of a flight.
@@ -107,7 +109,8 @@ fn heard(seed: u64) -> Result<Option<Heard>, String> {
     let Outcome::Ok(tone) = analysis.outcome else { return Ok(None) };
     let rotor_count = tone.rotors.len().max(1);
     let tracks = tone.tracks_beside_log(config.method).into_iter().map(Cow::into_owned).collect();
-    Ok(Some(Heard { states, tracks, rotor_count }))
+    let is_group = tone.rotors_heard(config.method) == Some(RotorsHeard::Group);
+    Ok(Some(Heard { states, tracks, rotor_count, is_group }))
 }
 
 fn compared(flight: &Heard, telemetry: &Telemetry, seed: u64) -> Option<Compared> {
@@ -129,7 +132,11 @@ fn compared(flight: &Heard, telemetry: &Telemetry, seed: u64) -> Option<Compared
     let clock = 1.0 + telemetry.clock_share;
     let tracks: Vec<Vec<TrackPoint>> = flight.tracks.iter().map(|track| by_clock(track, clock)).collect();
     let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
-    let found = verification_from_log(&tracks, log, None).ok()?;
+    let found = match tracks.as_slice() {
+        [track] if flight.is_group => verification_of_group(track, log, None),
+        tracks => verification_from_log(tracks, log, None),
+    };
+    let found = found.ok()?;
     let is_right = |track: usize, motor: usize| nearest_rotor(flight, &flight.tracks[track]) == motor;
     Some(Compared {
         offset_error_s: (found.offset_s - offset_s).abs(),

@@ -279,7 +279,7 @@ pub(crate) fn fit_of(
                  other) for a minute, in roll, pitch, yaw and climb"
             }
             GreyBoxStop::TooShort { .. } => {
-                "fly doublets (the stick to one side, then to the other) for a minute, in roll, pitch, yaw and climb; record and log the whole flight"
+                "log the speeds more often, or fly doublets (the stick to one side, then to the other) for longer, in roll, pitch, yaw and climb; record and log the whole flight"
             }
             GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
                 "check that the log belongs to this recording; if the clocks of the two differ, give --log-offset-s; \

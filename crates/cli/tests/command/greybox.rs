@@ -70,9 +70,9 @@ fn another_vehicle_and_exchanged_axes_are_said() {
     );
     assert!((heavy / right - 1.0).abs() < 1e-4 && right > 300.0, "{right} {heavy}");
     let frd = ["greybox", &log, "--vehicle", "ardrone", "--log-axes", "frd"];
-    let said = hovertone(&frd).ends_with(0).stderr;
+    let said = hovertone(&frd).ends_with(3).stderr;
     assert!(said.contains("k_p of pitch and yaw are negative") && said.contains("check --log-axes"), "{said}");
-    let line = hovertone(&[&frd[..], &["--json"]].concat()).ends_with(0).json_lines().remove(0);
+    let line = hovertone(&[&frd[..], &["--json"]].concat()).ends_with(3).json_lines().remove(0);
     assert!(line["warnings"].to_string().contains("are negative"), "{}", line["warnings"]);
     let right = hovertone(&["greybox", &log, "--vehicle", "ardrone"]).ends_with(0).stderr;
     assert!(!right.contains("negative"), "{right}");
@@ -117,7 +117,7 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let few = log("few.csv", &(turning.clone() + &few));
     refused_with(
         &["greybox", &few, "--vehicle", "ardrone"],
-        &["the flight is too short: it has 29 speeds in 0.3 s, but a fit needs 2 s or more"],
+        &["the flight has too few speeds, 29 in 0.3 s: with as many in a second, a fit needs 2 s or more"],
     );
     // neither commands nor speeds that never change show a model
     let long = |command: fn(u32) -> f64| {

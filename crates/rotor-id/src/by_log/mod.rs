@@ -22,7 +22,7 @@ mod noise_model;
 mod nuisance;
 mod verification;
 
-pub use verification::{LoggedSpeeds, NotVerified, verification_from_log};
+pub use verification::{LoggedSpeeds, NotVerified, verification_from_log, verification_of_group};
 
 pub use flight_log::{FlightLog, LogError, LogSignals, MotorSignal};
 

@@ -45,6 +45,9 @@ pub struct LoggedSpeeds<'a> {
     pub speeds_rev_s: &'a [Vec<f64>],
 }
 
+/// Name of the mean of the motors.
+const MEAN_OF_MOTORS: &str = "mean of all motors";
+
 /// Why nothing can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -144,13 +147,32 @@ pub fn verification_from_log(
     })
 }
 
+impl LoggedSpeeds<'_> {
+    /// The mean speed of all motors in each row.
+    fn mean(self) -> Vec<f64> {
+        let count = self.speeds_rev_s.len() as f64;
+        let mean = |row: usize| self.speeds_rev_s.iter().map(|speeds| speeds[row]).sum::<f64>() / count;
+        (0..self.time_s.len()).map(mean).collect()
+    }
+}
+
 /// Names and speeds of the motors, and of their mean.
 fn with_mean(log: LoggedSpeeds<'_>) -> (Vec<String>, Vec<Vec<f64>>) {
-    let count = log.speeds_rev_s.len() as f64;
-    let mean = |row: usize| log.speeds_rev_s.iter().map(|speeds| speeds[row]).sum::<f64>() / count;
-    let mean = (0..log.time_s.len()).map(mean).collect();
-    let names = log.names.iter().cloned().chain(["mean of all motors".to_owned()]);
-    (names.collect(), log.speeds_rev_s.iter().cloned().chain([mean]).collect())
+    let names = log.names.iter().cloned().chain([MEAN_OF_MOTORS.to_owned()]);
+    (names.collect(), log.speeds_rev_s.iter().cloned().chain([log.mean()]).collect())
+}
+
+/// The same for rotors that are heard as a group, whose speed is their mean: the mean of the motors alone is compared with it.
+///
+/// # Errors
+/// Nothing to compare.
+pub fn verification_of_group(
+    track: &[TrackPoint],
+    log: LoggedSpeeds<'_>,
+    offsets_s: Option<[f64; 2]>,
+) -> Result<Verification, NotVerified> {
+    let (names, speeds_rev_s) = ([MEAN_OF_MOTORS.to_owned()], [log.mean()]);
+    verification_from_log(&[track], LoggedSpeeds { names: &names, speeds_rev_s: &speeds_rev_s, ..log }, offsets_s)
 }
 
 /// The simple ratio of the heard and the logged speeds.
