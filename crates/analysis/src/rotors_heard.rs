@@ -30,21 +30,31 @@ impl RotorTone {
     }
 
     /// The tracks that a log is compared with: those of the separated rotors, else that of the one tone. It may be the tone of any of several
-    /// rotors, so each of its points has the spread of the rotors too: for a group, whose mean is known better, that of rotors in general.
+    /// rotors, so each of its points has the spread of the rotors too. That of a group has the mean of the group, which is known better.
     pub fn tracks_beside_log(&self, method: Method) -> Vec<Cow<'_, [TrackPoint]>> {
         if !self.rotors.is_empty() {
             return self.rotors.iter().map(|rotor| Cow::Borrowed(rotor.track.as_slice())).collect();
         }
-        let of_speed = self.speed(method).map_or(0.0, SpeedEstimate::rotors_std_share);
-        let spread_share = match self.rotors_heard(method) {
-            Some(RotorsHeard::Group) => of_speed.max(ROTOR_SPREAD_SHARE),
-            _ => of_speed,
+        let speed = self.speed(method);
+        let of_speed = speed.map_or(0.0, SpeedEstimate::rotors_std_share);
+        let (spread_share, factor) = match (self.rotors_heard(method), speed) {
+            (Some(RotorsHeard::Group), Some(group)) => {
+                (of_speed.max(ROTOR_SPREAD_SHARE), group.speed.rev_s() / self.mean_rev_s())
+            }
+            _ => (of_speed, 1.0),
         };
-        let with_spread = |point: &TrackPoint| TrackPoint {
+        let point = |point: &TrackPoint| TrackPoint {
+            tone_hz: factor * point.tone_hz,
+            speed_rev_s: factor * point.speed_rev_s,
             std_uncertainty_rev_s: point.std_uncertainty_rev_s.hypot(spread_share * point.speed_rev_s),
             ..*point
         };
-        vec![self.track.iter().map(with_spread).collect()]
+        vec![self.track.iter().map(point).collect()]
+    }
+
+    /// Mean speed over the points of the track.
+    fn mean_rev_s(&self) -> f64 {
+        self.track.iter().map(|point| point.speed_rev_s).sum::<f64>() / self.track.len() as f64
     }
 }
 
