@@ -43,6 +43,27 @@ fn offset_motors_and_coverage_are_found() {
     assert!(found.clock_rate_share.unwrap().abs() < 3e-4);
 }
 
+/// A group is the mean of all rotors: a motor that turns as the tone, 1 % too fast, is no match for it.
+#[test]
+fn a_group_is_compared_with_the_mean_alone() {
+    let mean_rev_s = |time_s: f64| (0..4).map(|motor| speed_rev_s(motor, time_s)).sum::<f64>() / 4.0;
+    let tone = |factor: f64| -> Vec<TrackPoint> {
+        let of_mean = |point: TrackPoint| TrackPoint { speed_rev_s: factor * mean_rev_s(point.time_s), ..point };
+        track(0, 1.0).into_iter().map(of_mean).collect()
+    };
+    let time_s: Vec<f64> = (0..900).map(|row| 0.1 * f64::from(row)).collect();
+    let of_motor = |motor: usize| time_s.iter().map(|&row_s| speed_rev_s(motor, row_s)).collect();
+    // the fourth motor turns as a tone that is 1 % too fast
+    let fast = time_s.iter().map(|&row_s| 1.01 * mean_rev_s(row_s)).collect();
+    let speeds_rev_s: Vec<Vec<f64>> = (0..3).map(of_motor).chain([fast]).collect();
+    let names: Vec<String> = (1..=4).map(|motor| format!("motor {motor}")).collect();
+    let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+    let of_group = verification_of_group(&tone(1.01), log, None).unwrap();
+    assert!(!of_group.is_right() && of_group.rotors[0].name == MEAN_OF_MOTORS, "{of_group:?}");
+    let of_one_tone = verification_from_log(&[&tone(1.01)], log, None).unwrap();
+    assert!(of_one_tone.is_right() && of_one_tone.rotors[0].name == "motor 4", "{of_one_tone:?}");
+}
+
 /// A log of a climb that the recording does not have: the offset that leaves the climb out fits best, and tells nothing.
 #[test]
 fn a_steady_recording_has_no_offset() {
