@@ -96,7 +96,11 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
             None if rotor.is_none() => "a tone, but probably no rotor",
             None => "another tone",
         };
-        let readings = if family.remark == Some(Remark::GearMesh) { String::new() } else { readings_in_a_line(family) };
+        let of_rotor = rotor.and_then(|rotor| line_of_rotor(family, found.families.get(rotor)?));
+        let readings = match family.remark {
+            Some(Remark::GearMesh) => String::new(),
+            _ => readings_in_a_line(family, of_rotor.as_deref()),
+        };
         text += &format!("\n{}\n{readings}", kind_and_place(kind, family));
     }
     text
@@ -110,6 +114,11 @@ fn heard_in_words(record: &SpeedRecord, heard: &SpeedEstimate) -> String {
         several => format!("{} rotors at {rev_s} rev/s on average; the tone of the loudest is listed", several.len()),
     }
 }
+
+/// A tone this near a harmonic may be that of another rotor of the vehicle.
+const NEAR_ROTOR_SHARE: f64 = 0.05;
+/// Harmonics that are named: higher ones are near any tone.
+const OTHER_HARMONICS: std::ops::RangeInclusive<f64> = 2.0..=6.0;
 
 /// A tone that moves by more (standard deviation) has no single frequency.
 const MOVING_SHARE: f64 = 0.002;
@@ -223,16 +232,33 @@ fn possible_readings(family: &ToneFamily) -> impl Iterator<Item = &Reading> {
     family.readings.iter().filter(|reading| reading.plausibility > 0.0)
 }
 
-fn readings_in_a_line(family: &ToneFamily) -> String {
+/// That a tone may be a harmonic of another rotor of the same vehicle, whose speed is near that of the loudest one.
+fn line_of_rotor(family: &ToneFamily, rotor: &ToneFamily) -> Option<String> {
+    let reading = rotor.readings.first()?;
+    let blades = f64::from(reading.meaning.blades()?);
+    let ratio = family.fundamental_hz / (blades * reading.speed.rev_s());
+    let harmonic = ratio.round();
+    let is_near = (ratio / harmonic - 1.0).abs() < NEAR_ROTOR_SHARE && OTHER_HARMONICS.contains(&harmonic);
+    is_near.then(|| {
+        let rev_s = significant(family.fundamental_hz / (harmonic * blades), DIGITS);
+        format!("perhaps harmonic {harmonic} of another rotor, at {rev_s} rev/s")
+    })
+}
+
+fn readings_in_a_line(family: &ToneFamily, of_rotor: Option<&str>) -> String {
     let words: Vec<String> = possible_readings(family)
         .map(|reading| format!("{}: {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
         .collect();
     match words.is_empty() {
+        true if let Some(of_rotor) = of_rotor => format!("{INDENT}{of_rotor}\n"),
         true => {
             let why = each_once(family.readings.iter().map(|reading| reading.why.as_str()));
             format!("{INDENT}no speed of a rotor explains it ({why})\n")
         }
-        false => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
+        false => match of_rotor {
+            Some(of_rotor) => format!("{INDENT}{of_rotor}; as a tone of its own: {}\n", words.join(" · ")),
+            None => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
+        },
     }
 }
 

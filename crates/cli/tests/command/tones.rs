@@ -201,3 +201,17 @@ fn flights_are_found_with_their_truth_among_the_readings_and_the_rest_is_nothing
         assert!(speeds(line).iter().any(|speed| range_rev_s.contains(speed)), "{file}: {line}");
     }
 }
+
+/// Lines of the other rotors are no machines of their own: their speeds are near that of the loudest rotor.
+#[test]
+fn lines_of_other_rotors_are_called_that() {
+    let Some(folder) = recordings("small-multirotors") else { return };
+    let run = hovertone(&["tones", "--blades", "2", text(&folder.join("DRONE_001.wav"))]).ends_with(0);
+    // the rotors turn at 81.5 to 86.6 rev/s
+    let speeds: Vec<f64> = run
+        .stdout
+        .lines()
+        .filter_map(|line| line.split_once(" of another rotor, at ")?.1.split(' ').next()?.parse().ok())
+        .collect();
+    assert!(speeds.len() >= 3 && speeds.iter().all(|speed| (81.0..87.0).contains(speed)), "{}", run.stdout);
+}
