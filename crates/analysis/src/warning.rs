@@ -177,7 +177,7 @@ impl Warning {
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
-                "if only one rotor turns, give --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer and record \
+                "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several, place the microphone nearer and record \
                 without compression"
             }
             Self::RotorsNotApart { has_mean: false, .. } => {
@@ -188,7 +188,7 @@ impl Warning {
                 "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; rotors at nearly equal speeds cannot be separated; if their speeds differ, a nearer microphone may help"
             }
             Self::RotorCountUnknown { .. } => {
-                "if only one rotor turns, give --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer"
+                "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several, place the microphone nearer"
             }
             Self::OtherRotorsHeard { .. } => {
                 "if more rotors turn, give their number with --rotors; if not, record away from other machines"

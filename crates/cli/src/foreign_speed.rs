@@ -73,8 +73,8 @@ fn why_not_heard(instead: Option<OtherRotor>, [low, high]: [f64; 2], flags: &[&s
     let may_turn = format!("a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s");
     Some(match flags {
         [] if (low..=high).contains(&speed_rev_s) => format!(
-            "the tone of the rotors with which the constant was measured is not heard, but {may_turn}; if this is \
-            another vehicle, {OTHER_VEHICLE}; if not, move the microphone nearer"
+            "this does not sound like the vehicle of the constant, but {may_turn}; if this is another vehicle, {OTHER_VEHICLE}; if \
+            it is the same, move the microphone nearer"
         ),
         [] => format!("{not_heard}. But {may_turn}: {OTHER_VEHICLE}"),
         flags => {

@@ -65,6 +65,22 @@ pub(crate) fn tone_of_constant_in_words(
     )))
 }
 
+/// That the speed comes from another tone of the vehicle than the constant did: the sound does not show that it is the same vehicle. `None` where
+/// both are one tone.
+pub(crate) fn other_tone_in_words(
+    typed: &ToneArguments,
+    results: Option<&IdentifiedRotor>,
+) -> Result<Option<Notice>, Failure> {
+    let tone = results.and_then(|rotor| rotor.tone);
+    let Some((heard, said)) = tone.zip(tone_of(typed)?) else { return Ok(None) };
+    Ok((said.order.lines_per_turn() != heard.order).then(|| {
+        Notice::new(
+            "the flags name another tone than that of the constant, so the sound does not show whether this is the same vehicle",
+            "leave the flags of the tone out: then hovertone hears the tone of the constant",
+        )
+    }))
+}
+
 /// Refuses an order that is neither that of the tone behind the constant nor that of the blade pass.
 fn check_order(said: Order, heard: &HeardTone, typed: &ToneArguments) -> Result<(), Failure> {
     let lines = said.lines_per_turn();

@@ -80,10 +80,6 @@ impl ArchiveRecording {
         self.reason.clone().unwrap_or_else(warnings)
     }
 
-    fn warnings_in_lines(&self) -> String {
-        self.warnings.join("\n")
-    }
-
     fn tone(&self) -> String {
         self.tone_hz.map_or_else(no_number, |tone_hz| format!("{tone_hz:.1}"))
     }

@@ -95,7 +95,7 @@ impl SpeedRecord {
         Some(format!(
             "{SEVERAL_SPEEDS}, and the given facts contradict one of them: at {rev_s:.1} rev/s, diameter, mass and \
              number of rotors mean a thrust coefficient of {}, and propellers have {low} to {high}; check {}",
-            significant(coefficient, 2),
+            significant(coefficient, 3),
             self.facts_to_check()
         ))
     }

@@ -162,7 +162,7 @@ fn notice_of_thrust(record: &SpeedRecord, config: &Config) -> Option<Notice> {
     let text = format!(
         "the vehicle cannot hover at {speed_rev_s:.1} rev/s: with its diameter, mass and number of rotors, its propellers would need a \
          thrust coefficient (thrust for their size and speed) of {}, and propellers have {low} to {high}",
-        significant(coefficient, 2)
+        significant(coefficient, 3)
     );
     let others = GivenFacts { mass: false, ..record.given_facts() }.in_words("and");
     let hint = format!("if it hovers in this recording, check the mass first, then {others}");

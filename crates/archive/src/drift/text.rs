@@ -71,7 +71,9 @@ fn has_single_rotors(drift: &Drift) -> bool {
 fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
-        false => "single rotors are not compared: both archives need recordings with separated rotors\n",
+        false => {
+            "only the mean of all rotors is compared: in at least one of the archives, no recording has separated rotors\n"
+        }
     }
 }
 
@@ -96,8 +98,8 @@ fn not_known_text(drift: &Drift) -> &'static str {
 
 fn p_value_text() -> String {
     format!(
-        "p-value: chance of a change as large as this, or larger, if nothing has changed; corrected for the number of tests (Holm 1979). \
-         \"has changed\": the p-value is below {FALSE_ALARM_CHANCE}\n"
+        "p-value: the chance of so large a difference by accident, where the rotors turn as before; where several are tested, it is raised for \
+         that (Holm 1979). Below {FALSE_ALARM_CHANCE}, the verdict is \"has changed\"\n"
     )
 }
 

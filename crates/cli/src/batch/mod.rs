@@ -80,8 +80,8 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
     written.iter().flat_map(|written| &written.failed).for_each(|failed| terminal.error(failed));
     if written.as_ref().is_some_and(|written| !written.failed.is_empty()) {
         terminal.tip(&Notice::new(
-            "the next run does not hear these recordings again by itself",
-            "mend the cause, then run the same command with --retry",
+            "the next run hears a recording that failed again only if its file has changed",
+            "to hear it again in any case, run the same command with --retry",
         ));
     }
     let overview = folder.place(tables::OVERVIEW);

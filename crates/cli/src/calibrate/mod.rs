@@ -260,7 +260,8 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
         None => {
             let reason = format!(
                 "no clear tone that lasts 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, \
-                 record the tone louder and without other sound, or give another range with --band LOW:HIGH",
+                 record the tone louder and without other sound, hear a longer part (--from, --to), or give another range \
+                 with --band LOW:HIGH",
                 band_hz.start, band_hz.end
             );
             ("no_line", Some(reason), Ending::Incomplete)

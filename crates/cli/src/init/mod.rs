@@ -40,8 +40,9 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
             &mut Dialog::new(io::stdin().lock(), io::stderr(), width_of(&io::stderr())),
         )?,
         missing => {
-            let what = format!("init cannot ask for {}, because this is not a terminal", missing.join("; and "));
-            return Err(Failure::usage(what, "add the missing flags, or run `hovertone init` in a terminal"));
+            let what = "init can ask questions only in a terminal, and this is none";
+            let hint = format!("run it in a terminal, or add flags: {}", missing.join("; and "));
+            return Err(Failure::usage(what, hint));
         }
     };
     let vehicle = draft.preset.as_deref().map(preset).transpose()?;

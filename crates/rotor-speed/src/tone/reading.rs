@@ -70,8 +70,11 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
     }
     if !(low..=high).contains(&rev_s) {
         let how = if rev_s < low { "slow" } else { "fast" };
-        let rotor = if known.shaft_speed.is_some() { "the rotors of this vehicle turn" } else { "a rotor turns" };
-        against.push(format!("too {how}: {rotor} at {low:.0} to {high:.0} rev/s"));
+        let range = format!("{low:.0} to {high:.0} rev/s");
+        against.push(match known.shaft_speed {
+            Some(_) => format!("too {how}: for this vehicle, hovertone searches {range}"),
+            None => format!("too {how}: a rotor turns at {range}"),
+        });
     }
     if let Some(diameter_m) = known.diameter_m {
         let mach = PI * diameter_m * rev_s / config.sound_speed_m_s;
