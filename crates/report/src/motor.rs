@@ -313,6 +313,6 @@ fn simulator_lines(constants: &MotorConstants) -> String {
     }
     let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
     format!(
-        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity is the largest speed in this file; the motor may turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
+        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity: the largest speed that lasts for some rows of this file; the motor may turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
     )
 }

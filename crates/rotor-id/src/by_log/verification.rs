@@ -16,6 +16,10 @@ const OFFSET_STEP_S: f64 = 0.1;
 const FINE_STEP_S: f64 = 0.004;
 /// Points of a track in the coarse search. *Numeric.*
 const COARSE_POINTS: usize = 300;
+/// The same in the fine search. *Numeric.*
+const FINE_POINTS: usize = 1200;
+/// Offsets of the coarse search that are searched finely. *Numeric.*
+const PLACES_MAX: usize = 16;
 /// Most offsets. *Decision.*
 const OFFSETS_MAX: usize = 40_000;
 /// Share of the shorter series that both must cover. *Decision.*
@@ -114,17 +118,16 @@ pub fn verification_from_log(
     let near_ratio = near_ratio(&tracks, log);
     let comparison = Comparison { tracks: &tracks, log, scale: near_ratio.unwrap_or(1.0) };
     let offsets = comparison.offsets(offsets_s)?;
-    let costs: Vec<f64> = offsets.iter().map(|&offset_s| comparison.cost(offset_s, COARSE_POINTS)).collect();
-    let best = (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).ok_or(NotVerified::NoOverlap)?;
-    if !costs[best].is_finite() {
+    let places = comparison.best_places(&offsets);
+    let Some(&best) = places.first() else {
         return Err(offsets_s.map_or(NotVerified::NoOverlap, |_| NotVerified::NoOverlapAtOffset));
-    }
-    let elsewhere = offsets.iter().zip(&costs).filter(|(offset_s, _)| (*offset_s - offsets[best]).abs() > ELSEWHERE_S);
-    let elsewhere = elsewhere.map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
+    };
+    let elsewhere = places.iter().find(|place| (place.offset_s - best.offset_s).abs() > ELSEWHERE_S);
     // steady speeds fit anywhere
-    let is_worse = |cost: f64| cost.is_finite() && cost > ELSEWHERE_FACTOR * costs[best];
-    let is_offset_told = is_worse(elsewhere) && is_worse(comparison.cost_of_constants(offsets[best], COARSE_POINTS));
-    let fine_s = comparison.fine_offset(offsets[best]);
+    let is_worse = |cost: f64| cost.is_finite() && cost > ELSEWHERE_FACTOR * best.cost;
+    let is_offset_told = elsewhere.is_some_and(|place| is_worse(place.cost))
+        && is_worse(comparison.cost_of_constants(best.offset_s, FINE_POINTS));
+    let fine_s = best.offset_s;
     let offset_s = offsets_s.map_or(fine_s, |[low_s, high_s]| fine_s.min(high_s).max(low_s));
     // a fit that is hardly better outside of the limits tells nothing
     let is_better_outside =
@@ -188,6 +191,13 @@ fn near_ratio(tracks: &[&[TrackPoint]], log: LoggedSpeeds<'_>) -> Option<f64> {
 fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
     (count > 0).then(|| sum / count as f64)
+}
+
+/// An offset and the squares that it leaves.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    offset_s: f64,
+    cost: f64,
 }
 
 struct Comparison<'a> {
@@ -284,11 +294,32 @@ impl Comparison<'_> {
         self.tracks.iter().zip(motors).filter_map(square).sum()
     }
 
-    fn fine_offset(&self, coarse_s: f64) -> f64 {
+    /// The best offsets, each with its cost, best first: the most promising ones of the coarse search are searched finely, because quick changes of
+    /// the speed tell an offset that the coarse steps miss. Half of them may lie anywhere, and the others far from all, so that the best one is
+    /// compared with others elsewhere.
+    fn best_places(&self, offsets: &[f64]) -> Vec<Place> {
+        let by_cost = |a: &Place, b: &Place| a.cost.total_cmp(&b.cost);
+        let coarse = |&offset_s: &f64| Place { offset_s, cost: self.cost(offset_s, COARSE_POINTS) };
+        let mut all: Vec<Place> = offsets.iter().map(coarse).filter(|place| place.cost.is_finite()).collect();
+        all.sort_by(by_cost);
+        let mut chosen: Vec<Place> = Vec::new();
+        for place in all {
+            let is_near = |other: &Place| (place.offset_s - other.offset_s).abs() < ELSEWHERE_S;
+            if chosen.len() < PLACES_MAX / 2 || chosen.len() < PLACES_MAX && !chosen.iter().any(is_near) {
+                chosen.push(place);
+            }
+        }
+        let mut fine: Vec<Place> = chosen.iter().map(|place| self.fine_place(place.offset_s)).collect();
+        fine.sort_by(by_cost);
+        fine
+    }
+
+    /// The best offset near one of the coarse search.
+    fn fine_place(&self, coarse_s: f64) -> Place {
         let steps = (OFFSET_STEP_S / FINE_STEP_S) as i32;
         let places = (-steps..=steps).map(|step| coarse_s + f64::from(step) * FINE_STEP_S);
-        let costs = places.map(|offset_s| (offset_s, self.cost(offset_s, 4 * COARSE_POINTS)));
-        costs.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(coarse_s, |(offset_s, _)| offset_s)
+        let costs = places.map(|offset_s| Place { offset_s, cost: self.cost(offset_s, FINE_POINTS) });
+        costs.min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(Place { offset_s: coarse_s, cost: f64::INFINITY })
     }
 
     /// Change of the offset from the first to the second half, over the time between their middles.
@@ -306,7 +337,7 @@ impl Comparison<'_> {
                 .map(|track| if is_second { &track[part(track)..] } else { &track[..part(track)] })
                 .collect()
         };
-        let offset_of = |tracks: &[&[TrackPoint]]| Comparison { tracks, ..*self }.fine_offset(offset_s);
+        let offset_of = |tracks: &[&[TrackPoint]]| Comparison { tracks, ..*self }.fine_place(offset_s).offset_s;
         Some((offset_of(&half(true)) - offset_of(&half(false))) / (0.5 * (to_s - from_s)))
     }
 
