@@ -1,7 +1,7 @@
 //! The log of a recording's flight beside what was heard: names of rotors, order check, constants of motors; and its part of `results.json`.
 
-use crate::motor::{LoggedMotor, MotorRecord};
 use crate::motor_json::{CombinedLine, combined_line};
+use crate::motor_record::{LoggedMotor, MotorRecord};
 use crate::notice::Notice;
 use crate::verification::{failed_check, status_of, undecided_check};
 use hovertone_analysis::{LabelSource, RotorLabels, Verification, VerifiedRotor};

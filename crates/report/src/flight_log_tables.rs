@@ -1,7 +1,8 @@
 //! The logs of an experiment as tables: order check, heard rotors, motors.
 
 use crate::flight_log::FlightLogRecord;
-use crate::motor::{MotorRecord, in_ms};
+use crate::motor::in_ms;
+use crate::motor_record::MotorRecord;
 use crate::number::{DASH, fixed, signed, significant, with_uncertainty};
 use crate::results::InputRecord;
 use crate::text_table::{Column, TextTable};

@@ -45,6 +45,7 @@ mod models;
 mod motor;
 mod motor_json;
 mod motor_map;
+mod motor_record;
 mod names;
 mod notice;
 mod number;
@@ -91,8 +92,9 @@ pub use grey_box::{
 pub use grey_box_json::grey_box_json;
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
-pub use motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource, motor_text};
+pub use motor::motor_text;
 pub use motor_json::motor_json;
+pub use motor_record::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
 pub use names::short_names;
 pub use notice::{Notice, NoticeKind};
 pub use number::{ScaledNumber, fixed, scaled_number, signed, significant, with_uncertainty};

@@ -1,6 +1,6 @@
 //! Constants of motors from a log as a JSON line for programs.
 
-use crate::motor::{LoggedMotor, MotorRecord, MotorSource};
+use crate::motor_record::{LoggedMotor, MotorRecord, MotorSource};
 use crate::version::VERSION;
 use hovertone_dynamics::{
     BenchTorque, CombinedEstimate, LoadTerm, MapOrigin, MapPoint, MotorStep, StaticMap, StepVerdict, constants_of,

@@ -1,6 +1,6 @@
 //! The static maps of motors, in words the speed of each command: the gains, and the steady speeds behind them.
 
-use crate::motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
+use crate::motor_record::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
 use crate::number::{DASH, significant, with_uncertainty};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};

@@ -216,8 +216,8 @@ pub(crate) struct WeighArguments {
     /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
-    /// Diameter of a propeller, in m or as 24cm or 8in: with it, hovertone can rule out half and double the true speed [default: that of the results, or of
-    /// --vehicle]
+    /// Diameter of a propeller, in m or as 24cm or 8in: with it, hovertone can rule out half and double the true speed [default: that of
+    /// the results, or of --vehicle]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Mass of the vehicle without payload, in kg or as 413g [default: that of the results]

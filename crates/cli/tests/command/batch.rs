@@ -1,14 +1,14 @@
 //! `hovertone batch`: one row for each recording, the same bytes however it is run, and nothing lost when it is killed.
 
+mod doubts;
 mod inputs;
 mod overview;
 
 use crate::report_fixture::write_rotor;
-use crate::testkit::{Run, hovertone, refused_with, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{Run, hovertone, refused_with, text, write_noise};
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
 use arrow_array::{Array, RecordBatch};
-use hovertone_vehicle::RotorSpeed;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -363,21 +363,6 @@ fn a_comparison_names_what_has_changed() {
 
 /// A name that is no text in UTF-8 is shown as well as it can be, and its recording is heard.
 #[cfg(target_os = "linux")]
-/// A speed that contradicts the given vehicle is no sure one: the counts, the exit code, the table and the page say so.
-#[test]
-fn a_vehicle_that_the_sound_contradicts_is_not_hidden() {
-    let folder = tempfile::tempdir().unwrap();
-    let (archive, out) = (folder.path().join("archive"), folder.path().join("out"));
-    fs::create_dir_all(&archive).unwrap();
-    write_hover(&archive.join("one.wav"), steady_hover("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0));
-    let run = hovertone(&["batch", text(&archive), "-o", text(&out), "--vehicle", "ardrone"]).ends_with(3);
-    assert!(run.stdout.starts_with("1 recording: 1 with a speed (1 of them with warnings), "), "{}", run.stdout);
-    assert!(run.stderr.contains("1 recording has a speed that contradicts the given facts: "), "{}", run.stderr);
-    assert!(table(&out.join("recordings.parquet")).column_by_name("is_doubtful").unwrap().as_boolean().value(0));
-    let page = fs::read_to_string(out.join("overview.html")).unwrap();
-    assert!(page.contains("title=\"do not use\"") && page.contains("the speed may come from another sound"), "{page}");
-}
-
 #[test]
 fn a_name_that_is_no_text_is_heard() {
     use std::os::unix::ffi::OsStrExt;

@@ -353,10 +353,7 @@ fn a_model_is_the_vehicle_of_an_experiment() {
     assert_eq!(found["vehicle_model"]["agrees"], false);
     assert!(!wrong.stderr.contains("nobody weighed"), "{}", wrong.stderr);
     let words = hovertone(&["identify", text(&folder.path().join("experiment.toml"))]).ends_with(0).stdout;
-    assert!(
-        words.contains("model.py (rotorpy)") && words.contains("outside the ± of the measured constant"),
-        "{words}"
-    );
+    assert!(words.contains("model.py (rotorpy)") && words.contains("outside the ± of the measured"), "{words}");
     let broken = results("{\n'k_eta': -1.0,\n}", "").ends_with(1);
     assert!(broken.stderr.contains("k_eta = -1") && broken.stderr.contains("model.py"), "{}", broken.stderr);
     fs::remove_file(folder.path().join("model.py")).unwrap();

@@ -50,7 +50,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
             what: format!(
                 "the flight does not show the {limits} of {axes}, above which a command has no more effect: it stays below"
             ),
-            hint: format!("use the model only for commands as large as in this flight"),
+            hint: "use the model only for commands as large as in this flight".to_owned(),
         });
     }
     if fit.estimate(Parameter::TimeConstant).is_none() {
