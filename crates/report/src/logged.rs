@@ -39,8 +39,8 @@ fn rotors_table(log: &LogSummary) -> TextTable {
     let mut shown = TextTable::new(vec![
         Column::words("signals"),
         Column::words("about rotors"),
-        Column::numbers("from", ""),
-        Column::numbers("to", ""),
+        Column::numbers("smallest", ""),
+        Column::numbers("largest", ""),
         Column::words("unit"),
         Column::numbers("rate", "Hz"),
     ]);

@@ -278,8 +278,11 @@ pub(crate) fn fit_of(
                 "check --vehicle and --log-axes; if both are right, fly doublets (the stick to one side, then to the \
                  other) for a minute, in roll, pitch, yaw and climb"
             }
+            GreyBoxStop::TooShort { .. } if files.recording.is_some() => {
+                "fly doublets (the stick to one side, then to the other) for longer, in roll, pitch, yaw and climb, and record the whole flight; or give the log alone, if it has the speeds of the rotors"
+            }
             GreyBoxStop::TooShort { .. } => {
-                "log the speeds more often, or fly doublets (the stick to one side, then to the other) for longer, in roll, pitch, yaw and climb; record and log the whole flight"
+                "log the speeds more often, or fly doublets (the stick to one side, then to the other) for longer, in roll, pitch, yaw and climb"
             }
             GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
                 "check that the log belongs to this recording; if the clocks of the two differ, give --log-offset-s; \
