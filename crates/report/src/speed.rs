@@ -47,6 +47,9 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
                 for (index, rotor) in record.rotors().iter().enumerate() {
                     table.push(cells_of_speed(name_of_rotor(record, index), &rotor.speed, String::new()));
                 }
+                if record.is_doubtful() {
+                    table.push_words("  do not use this speed".to_owned(), "it contradicts the given facts".to_owned());
+                }
             }
             None if record.has_failed() => table.push_words(name(record), "could not be heard".to_owned()),
             None if record.is_ambiguous() => {
