@@ -1,7 +1,7 @@
 //! `cargo run --release -p hovertone-bench -- verify`: sound against telemetry on simulated flights. Prints the tables of `docs/verify.md`. Run by
 //! people; its test flies fewer.
 
-use hovertone::rotors::{LoggedSpeeds, Verification, verification_from_log, verification_of_group};
+use hovertone::rotors::{LoggedSpeeds, Verification, verification_of_heard};
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, Method, Outcome, RotorsHeard, ToneConfig, TrackPoint, speed_from_source};
 use hovertone_sim::FlightState;
@@ -52,8 +52,8 @@ struct Heard {
     tracks: Vec<Vec<TrackPoint>>,
     /// Number of rotors that the tracks are of; 1 for the one tone of all.
     rotor_count: usize,
-    /// Whether the one tone is that of a group.
-    is_group: bool,
+    /// How these are heard.
+    heard: Option<RotorsHeard>,
 }
 
 /// A log against the tracks of a flight.
@@ -109,8 +109,8 @@ fn heard(seed: u64) -> Result<Option<Heard>, String> {
     let Outcome::Ok(tone) = analysis.outcome else { return Ok(None) };
     let rotor_count = tone.rotors.len().max(1);
     let tracks = tone.tracks_beside_log(config.method).into_iter().map(Cow::into_owned).collect();
-    let is_group = tone.rotors_heard(config.method) == Some(RotorsHeard::Group);
-    Ok(Some(Heard { states, tracks, rotor_count, is_group }))
+    let heard = tone.rotors_heard(config.method);
+    Ok(Some(Heard { states, tracks, rotor_count, heard }))
 }
 
 fn compared(flight: &Heard, telemetry: &Telemetry, seed: u64) -> Option<Compared> {
@@ -132,11 +132,7 @@ fn compared(flight: &Heard, telemetry: &Telemetry, seed: u64) -> Option<Compared
     let clock = 1.0 + telemetry.clock_share;
     let tracks: Vec<Vec<TrackPoint>> = flight.tracks.iter().map(|track| by_clock(track, clock)).collect();
     let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
-    let found = match tracks.as_slice() {
-        [track] if flight.is_group => verification_of_group(track, log, None),
-        tracks => verification_from_log(tracks, log, None),
-    };
-    let found = found.ok()?;
+    let found = verification_of_heard(&tracks, flight.heard, log, None).ok()?;
     let is_right = |track: usize, motor: usize| nearest_rotor(flight, &flight.tracks[track]) == motor;
     Some(Compared {
         offset_error_s: (found.offset_s - offset_s).abs(),

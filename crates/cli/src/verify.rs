@@ -12,8 +12,8 @@ use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::{config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
 use crate::which_speed::which_is_right;
-use hovertone::rotors::{LoggedSpeeds, NotVerified, Verification, verification_from_log, verification_of_group};
-use hovertone::speed::{RotorsHeard, TrackPoint};
+use hovertone::rotors::{LoggedSpeeds, NotVerified, Verification, verification_of_heard};
+use hovertone::speed::TrackPoint;
 use hovertone_figures::{DOTS_PER_INCH, verification_figure};
 use hovertone_report::{
     Notice, SpeedRecord, VerificationRecord, small_plus_minus, verification_json, verification_text,
@@ -109,8 +109,5 @@ pub(crate) fn verification_of(
 ) -> Result<Verification, NotVerified> {
     let tracks = record.tone().map_or_else(Vec::new, |tone| tone.tracks_beside_log(record.method));
     let tracks: Vec<&[TrackPoint]> = tracks.iter().map(AsRef::as_ref).collect();
-    match (tracks.as_slice(), record.rotors_heard()) {
-        ([track], Some(RotorsHeard::Group)) => verification_of_group(track, logged, offsets_s),
-        _ => verification_from_log(&tracks, logged, offsets_s),
-    }
+    verification_of_heard(&tracks, record.rotors_heard(), logged, offsets_s)
 }

@@ -13,7 +13,7 @@ use crate::scale_uncertainty::check_stds;
 use crate::settings::span_of;
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
-use crate::weighed_tone::{other_tone_in_words, tone_of_constant_in_words, tone_to_hear};
+use crate::weighed_tone::{tone_in_words, tone_to_hear};
 use crate::wording::IN_HOVER;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighError, WeighedHover};
@@ -59,10 +59,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     if let Some((rotor, path)) = results.as_ref().zip(arguments.constant.as_deref()) {
         say_doubts(rotor, path, terminal);
     }
-    if let Some(notice) = tone_of_constant_in_words(&arguments.tone, results.as_ref())? {
-        terminal.tip(&notice);
-    }
-    if let Some(notice) = other_tone_in_words(&arguments.tone, results.as_ref())? {
+    if let Some(notice) = tone_in_words(&arguments.tone, results.as_ref())? {
         terminal.tip(&notice);
     }
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;

@@ -48,37 +48,28 @@ pub(crate) fn tone_to_hear(
     Ok(tone)
 }
 
-/// That no flag names the tone, so that it is that behind the constant. `None` where a flag does.
-pub(crate) fn tone_of_constant_in_words(
+/// What a person must know of the tone that is heard beside a constant: that no flag names it, so that it is that of the constant; or that the flags
+/// name another one, so that the sound does not show whether it is the same vehicle. `None` where they name that of the constant.
+pub(crate) fn tone_in_words(
     typed: &ToneArguments,
     results: Option<&IdentifiedRotor>,
 ) -> Result<Option<Notice>, Failure> {
-    let tone = results.and_then(|rotor| rotor.tone);
-    let Some(heard) = tone.filter(|_| tone_of(typed).is_ok_and(|typed| typed.is_none())) else { return Ok(None) };
-    Ok(Some(Notice::new(
-        format!(
-            "no flag says which tone to hear, so hovertone listens for the tone of the constant: it sounds {}",
-            times_per_turn(Order::new(heard.order)?)
-        ),
-        "this is right with the same propellers as in the recordings of the constant; for others, measure a constant first with \
-         `hovertone identify`",
-    )))
-}
-
-/// That the speed comes from another tone of the vehicle than the constant did: the sound does not show that it is the same vehicle. `None` where
-/// both are one tone.
-pub(crate) fn other_tone_in_words(
-    typed: &ToneArguments,
-    results: Option<&IdentifiedRotor>,
-) -> Result<Option<Notice>, Failure> {
-    let tone = results.and_then(|rotor| rotor.tone);
-    let Some((heard, said)) = tone.zip(tone_of(typed)?) else { return Ok(None) };
-    Ok((said.order.lines_per_turn() != heard.order).then(|| {
-        Notice::new(
+    let Some(heard) = results.and_then(|rotor| rotor.tone) else { return Ok(None) };
+    Ok(match tone_of(typed)? {
+        None => Some(Notice::new(
+            format!(
+                "no flag says which tone to hear, so hovertone listens for the tone of the constant: it sounds {}",
+                times_per_turn(Order::new(heard.order)?)
+            ),
+            "this is right with the same propellers as in the recordings of the constant; for others, measure a constant first with \
+             `hovertone identify`",
+        )),
+        Some(said) if said.order.lines_per_turn() != heard.order => Some(Notice::new(
             "the flags name another tone than that of the constant, so the sound does not show whether this is the same vehicle",
             "leave the flags of the tone out: then hovertone hears the tone of the constant",
-        )
-    }))
+        )),
+        Some(_) => None,
+    })
 }
 
 /// Refuses an order that is neither that of the tone behind the constant nor that of the blade pass.

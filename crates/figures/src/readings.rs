@@ -18,9 +18,8 @@ const KEY_UP: i32 = 66;
 
 /// Draws the readings over the spectrogram of all frequencies, and the key above it.
 pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, range_s: Extent) -> Result<(), FigureError> {
-    if trial.readings.is_empty() {
-        return Ok(());
-    }
+    let lines = lines_of(trial.readings);
+    let Some((_, others)) = lines.split_first() else { return Ok(()) };
     if let Some(tone) = trial.heard_tone() {
         canvas.plot(panel, "tracks reading-1", |plot| {
             let lines = tone.bands.iter().flat_map(|band| coarser(common_lines(trial, tone, band)));
@@ -30,7 +29,7 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, range_
             })
         })?;
     }
-    for (index, line) in lines_of(trial.readings).iter().enumerate().skip(1) {
+    for (index, line) in (1..).zip(others) {
         let [reading, ..] = line.as_slice() else { continue };
         canvas.plot(panel, &format!("reading reading-{}", index + 1), |plot| {
             let at = |time_s: f64| Point::new(time_s, reading.tone_hz);
@@ -39,7 +38,7 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, range_
             plot.dashed(from, to, colour_of_rotor(index), 4)
         })?;
     }
-    canvas.layer("key readings", |sheet| key(sheet, trial.readings, panel))
+    canvas.layer("key readings", |sheet| key(sheet, &lines, panel))
 }
 
 /// The readings of each line of the picture: those of one tone differ in its order. The line of the most plausible reading is first.
@@ -55,9 +54,9 @@ fn lines_of(readings: &[Reading]) -> Vec<Vec<&Reading>> {
 }
 
 /// The meaning of each line, with its readings of a per cent or more; what has no room is named in the description alone.
-fn key(sheet: &Sheet<'_, '_>, readings: &[Reading], panel: &Panel) -> Result<(), FigureError> {
+fn key(sheet: &Sheet<'_, '_>, lines: &[Vec<&Reading>], panel: &Panel) -> Result<(), FigureError> {
     let mut at = Point::new(panel.place.left, panel.place.top - KEY_UP);
-    for (index, line) in lines_of(readings).iter().enumerate() {
+    for (index, line) in lines.iter().enumerate() {
         let shown = line.iter().enumerate().filter(|(at, reading)| *at == 0 || reading.plausibility >= SHOWN_MIN);
         let words = shown.map(|(_, reading)| in_words(reading)).collect::<Vec<_>>().join(", ");
         if at.x + Sheet::key_width(&words) > WIDTH {

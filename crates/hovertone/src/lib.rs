@@ -247,8 +247,7 @@ pub mod rotors {
     };
     pub use hovertone_rotor_id::LabelsConfig;
     pub use hovertone_rotor_id::by_log::{
-        FlightLog, LogError, LogSignals, LoggedSpeeds, MotorSignal, NotVerified, labels_from_log,
-        verification_from_log, verification_of_group,
+        FlightLog, LogError, LogSignals, LoggedSpeeds, MotorSignal, NotVerified, labels_from_log, verification_of_heard,
     };
     pub use hovertone_rotor_id::by_microphones::{
         ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, labels_from_microphones,

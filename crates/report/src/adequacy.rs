@@ -188,9 +188,8 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
 }
 
 fn cross_check(bootstrap: Option<TrialBootstrap>, budget: &UncertaintyBudget, constant_n_s2: f64) -> String {
-    let of_speed = [BudgetInput::SpeedStatistics, BudgetInput::SpeedEstimator];
-    let lines = budget.lines.iter().filter(|line| of_speed.contains(&line.input));
-    let by_budget = lines.map(|line| line.contribution_n_s2.powi(2)).sum::<f64>().sqrt();
+    let is_of_speed = |input| matches!(input, BudgetInput::SpeedStatistics | BudgetInput::SpeedEstimator);
+    let by_budget = budget.std_of_inputs(is_of_speed);
     let percent = |std_n_s2: f64| significant(100.0 * std_n_s2 / constant_n_s2, 2);
     bootstrap.map_or(String::new(), |drawn| {
         format!(

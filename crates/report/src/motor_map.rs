@@ -1,7 +1,7 @@
 //! The static maps of motors, in words the speed of each command: the gains, and the steady speeds behind them.
 
 use crate::motor_record::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
-use crate::number::{DASH, significant, with_uncertainty};
+use crate::number::{DASH, expanded, significant, with_uncertainty};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::MapOrigin;
@@ -52,7 +52,7 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
 
 /// Whether an estimate may be zero: its ± (k = 2) is larger than its value.
 fn is_nothing(estimate: Estimate) -> bool {
-    estimate.std_uncertainty.is_some_and(|std| 2.0 * std > estimate.value.abs())
+    expanded(estimate.std_uncertainty).is_some_and(|expanded| expanded > estimate.value.abs())
 }
 
 fn gains_table(record: &MotorRecord) -> TextTable {

@@ -34,9 +34,14 @@ pub enum NoticeKind {
 }
 
 impl NoticeKind {
+    /// Whether nobody should use a speed with such a notice.
+    pub(crate) fn forbids_use(self) -> bool {
+        matches!(self, Self::Impossible | Self::CannotHover)
+    }
+
     /// Whether the answer is not complete with such a notice.
     pub(crate) fn is_incomplete(self) -> bool {
-        matches!(self, Self::Impossible | Self::CannotHover | Self::NoNames)
+        self.forbids_use() || self == Self::NoNames
     }
 }
 

@@ -1,6 +1,6 @@
 //! The record of one recording: its facts and its result.
 
-use crate::notice::{Notice, NoticeKind};
+use crate::notice::Notice;
 use crate::wording::Wording;
 use hovertone_analysis::{
     Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
@@ -249,8 +249,8 @@ impl SpeedRecord {
 
     /// Whether it has a speed that must not be used: the sound contradicts the given facts, or no multirotor could fly like this.
     pub fn is_doubtful(&self) -> bool {
-        let forbids = |notice: &Notice| matches!(notice.kind, NoticeKind::Impossible | NoticeKind::CannotHover);
-        self.speed().is_some() && (self.contradiction().is_some() || self.notices.iter().any(forbids))
+        let is_forbidden = || self.notices.iter().any(|notice| notice.kind.forbids_use());
+        self.speed().is_some() && (self.contradiction().is_some() || is_forbidden())
     }
 
     /// From the start of the first used stretch to the end of the last.

@@ -156,10 +156,12 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
 
 /// "3/2", "2".
 fn fraction_in_words(ratio: f64) -> String {
-    let parts = [(1.0, "", ratio), (2.0, "/2", ratio), (3.0, "/3", ratio), (4.0, "/4", ratio)];
-    let whole =
-        parts.into_iter().find(|(part, _, ratio)| (part * ratio).fract() < 1e-9 || (part * ratio).fract() > 1.0 - 1e-9);
-    whole.map_or_else(|| significant(ratio, 3), |(part, over, ratio)| format!("{:.0}{over}", part * ratio))
+    let is_whole = |part: &u32| (f64::from(*part) * ratio - (f64::from(*part) * ratio).round()).abs() < 1e-9;
+    match (1..=4).find(is_whole) {
+        Some(1) => format!("{ratio:.0}"),
+        Some(part) => format!("{:.0}/{part}", f64::from(part) * ratio),
+        None => significant(ratio, 3),
+    }
 }
 
 /// Why equal means prove nothing.

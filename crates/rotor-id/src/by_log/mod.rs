@@ -22,7 +22,7 @@ mod noise_model;
 mod nuisance;
 mod verification;
 
-pub use verification::{LoggedSpeeds, NotVerified, verification_from_log, verification_of_group};
+pub use verification::{LoggedSpeeds, NotVerified, verification_of_heard};
 
 pub use flight_log::{FlightLog, LogError, LogSignals, MotorSignal};
 

@@ -8,7 +8,7 @@ mod tests;
 
 use super::agreement::agreement_of;
 use super::differences::{Difference, POINTS_MIN, compared_point, near_rows, rounding_std};
-use hovertone_analysis::{TrackPoint, Verification, VerifiedRotor};
+use hovertone_analysis::{RotorsHeard, TrackPoint, Verification, VerifiedRotor};
 
 /// Step of the coarse search of the offset, in s. *Numeric.*
 const OFFSET_STEP_S: f64 = 0.1;
@@ -93,11 +93,24 @@ impl NotVerified {
     }
 }
 
-/// Compares tracks with a log. `offsets_s` limits the offset, where it is known.
+/// Compares the tracks of rotors that are heard in some way with a log. `offsets_s` limits the offset, where it is known.
 ///
 /// # Errors
 /// Nothing to compare.
-pub fn verification_from_log(
+pub fn verification_of_heard(
+    tracks: &[&[TrackPoint]],
+    heard: Option<RotorsHeard>,
+    log: LoggedSpeeds<'_>,
+    offsets_s: Option<[f64; 2]>,
+) -> Result<Verification, NotVerified> {
+    match (tracks, heard) {
+        ([track], Some(RotorsHeard::Group)) => verification_of_group(track, log, offsets_s),
+        _ => verification_from_log(tracks, log, offsets_s),
+    }
+}
+
+/// The same for tracks that may be of any motor.
+fn verification_from_log(
     tracks: &[&[TrackPoint]],
     log: LoggedSpeeds<'_>,
     offsets_s: Option<[f64; 2]>,
@@ -166,10 +179,7 @@ fn with_mean(log: LoggedSpeeds<'_>) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 /// The same for rotors that are heard as a group, whose speed is their mean: the mean of the motors alone is compared with it.
-///
-/// # Errors
-/// Nothing to compare.
-pub fn verification_of_group(
+fn verification_of_group(
     track: &[TrackPoint],
     log: LoggedSpeeds<'_>,
     offsets_s: Option<[f64; 2]>,

@@ -124,8 +124,13 @@ pub struct UncertaintyBudget {
 impl UncertaintyBudget {
     /// Standard uncertainty from weighing and speeds, without the inputs that are assumed limits.
     pub(crate) fn measured_std_n_s2(&self) -> f64 {
-        let measured = self.lines.iter().filter(|line| line.input.is_measured());
-        measured.map(|line| line.contribution_n_s2.powi(2)).sum::<f64>().sqrt()
+        self.std_of_inputs(BudgetInput::is_measured)
+    }
+
+    /// Standard uncertainty from some of the inputs.
+    pub fn std_of_inputs(&self, is_wanted: impl Fn(BudgetInput) -> bool) -> f64 {
+        let wanted = self.lines.iter().filter(|line| is_wanted(line.input));
+        wanted.map(|line| line.contribution_n_s2.powi(2)).sum::<f64>().sqrt()
     }
 }
 
