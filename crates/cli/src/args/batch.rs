@@ -8,11 +8,11 @@ use hovertone_archive::Shard;
 use std::path::PathBuf;
 
 const BATCH_EXAMPLES: &str = "\
-Each finished recording is kept at once, so a run that was stopped can go on: give the same command again. It hears only
+Each finished recording is kept at once, so a run that was stopped can go on: give the same command again. It hears only \
 recordings that are new or changed. A file that cannot be heard gets a row with its error.
 OUT holds recordings.parquet (a row for each recording), tracks/ (its speed over time) and overview.html.
 
-Put a pattern into quotes: then a later run finds new recordings too. Without quotes, the shell replaces the pattern by
+Put a pattern into quotes: then a later run finds new recordings too. Without quotes, the shell replaces the pattern by \
 the names of today.
 
 Examples:
@@ -58,8 +58,8 @@ pub(crate) struct BatchArguments {
 }
 
 const COMPARE_EXAMPLES: &str = "\
-Recordings that have the same name in both archives are compared one by one; the change of a rotor is the weighted mean
-of these changes. Where no name is in both, the means of all recordings are compared (Welch's test). All stated
+Recordings that have the same name in both archives are compared one by one; the change of a rotor is the weighted mean \
+of these changes. Where no name is in both, the means of all recordings are compared (Welch's test). All stated \
 uncertainties are used. p is corrected for the number of tests (Holm).
 
 Examples:

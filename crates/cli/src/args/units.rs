@@ -10,7 +10,14 @@ const LENGTHS_M: [Unit; 6] = [
     Unit { name: "m", si: 1.0 },
 ];
 /// Units of a mass, longest names first.
-const MASSES_KG: [Unit; 2] = [Unit { name: "kg", si: 1.0 }, Unit { name: "g", si: 1e-3 }];
+const MASSES_KG: [Unit; 6] = [
+    Unit { name: "kilograms", si: 1.0 },
+    Unit { name: "kilogram", si: 1.0 },
+    Unit { name: "grams", si: 1e-3 },
+    Unit { name: "gram", si: 1e-3 },
+    Unit { name: "kg", si: 1.0 },
+    Unit { name: "g", si: 1e-3 },
+];
 struct Unit {
     name: &'static str,
     /// SI units in it.
@@ -77,6 +84,7 @@ mod tests {
         ] {
             assert_eq!(length_m(text), Ok(expected_m), "{text}");
         }
+        assert_eq!((mass_kg("413 grams"), mass_kg("2 kilograms")), (Ok(0.413), Ok(2.0)));
         assert_eq!((mass_kg("413g"), mass_kg("0.413 kg"), mass_kg("0.413")), (Ok(0.413), Ok(0.413), Ok(0.413)));
         assert!(
             length_m("8ft").is_err() && length_m("in").is_err() && mass_kg("413lb").is_err() && mass_kg("").is_err()

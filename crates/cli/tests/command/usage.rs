@@ -11,7 +11,10 @@ fn refuses(arguments: &[&str], words: &[&str]) {
     assert!(!run.stderr.contains('\x1b'), "colours without a terminal");
 }
 
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 23] = [
+    "batch",
+    "batch-compare",
+    "listen",
     "init",
     "calibrate",
     "completions",

@@ -8,6 +8,7 @@
 use super::block::{BlockFit, BlockSlices, LineSum};
 use super::demodulation::Line;
 use super::partition::{Partition, halved, likelihood_min, polished};
+use super::phasors::small_turn;
 use super::speed_path::SpeedPath;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -166,7 +167,7 @@ fn step_between(blocks: [&BlockFit; 2], middles: [&Middle; 2], path: &SpeedPath)
         .zip(&middles[1].sums)
         .map(|(LineSum { order, sum: first }, LineSum { sum: second, .. })| StepLine {
             rad_per_turn: TAU * order,
-            product: second * first.conj() * Complex::from_polar(1.0, TAU * (order * along_path).fract()),
+            product: second * first.conj() * cycles(order * along_path),
         })
         .collect();
     let variance: f64 = blocks.iter().map(|block| end_block(block, path.tick_s).end_variance_turns2(0.0)).sum();
@@ -198,7 +199,7 @@ fn most_likely_step(lines: &[StepLine], std_turns: f64) -> Option<f64> {
     let mut step = (best as i32 - points) as f64 * grid_step;
     for _ in 0..NEWTON_STEPS {
         let (gradient, curvature) = lines.iter().fold((0.0, 0.0), |(g, c), StepLine { rad_per_turn: w, product }| {
-            let turned = product * Complex::from_polar(1.0, -w * step);
+            let turned = product * cycles(-w * step / TAU);
             (g + w * turned.im, c + w * w * turned.re)
         });
         if curvature <= 0.0 {
@@ -209,13 +210,18 @@ fn most_likely_step(lines: &[StepLine], std_turns: f64) -> Option<f64> {
     Some(step)
 }
 
+/// `exp(j 2π cycles)`.
+fn cycles(cycles: f64) -> Complex<f64> {
+    small_turn(TAU * (cycles - cycles.round()))
+}
+
 /// Log likelihood of each step on a grid of `points` points to either side of 0.
 fn step_likelihoods(lines: &[StepLine], std_turns: f64, grid_step: f64, points: i32) -> Vec<f64> {
     let mut turning: Vec<(Complex<f64>, Complex<f64>)> = lines
         .iter()
         .map(|StepLine { rad_per_turn: w, product }| {
-            let first = Complex::from_polar(1.0, w * f64::from(points) * grid_step);
-            (product * first, Complex::from_polar(1.0, -w * grid_step))
+            let first = cycles(w * f64::from(points) * grid_step / TAU);
+            (product * first, cycles(-w * grid_step / TAU))
         })
         .collect();
     (-points..=points)

@@ -93,6 +93,11 @@ impl SpeedPath {
         self.ticks() == other.ticks() && speeds.into_iter().all(|(a, b)| (a - b).abs() <= distance_rev_s)
     }
 
+    /// Angle from one border between ticks to another.
+    pub(crate) fn turns_between(&self, from: usize, to: usize) -> f64 {
+        self.turns[to] - self.turns[from]
+    }
+
     /// Angle at the middle of a tick.
     pub(crate) fn turns_at_middle(&self, tick: usize) -> f64 {
         let PathTick { turns, speed_from_rev_s, speed_to_rev_s } = self.tick(tick);

@@ -26,8 +26,9 @@ const GRID_PER_CELL: f64 = 3.0;
 const NEWTON_STEPS: u32 = 8;
 /// Largest number of times that a step of Newton's method is halved until it climbs. *Numeric.*
 const HALVINGS_MAX: u32 = 4;
-/// Step of the speed at which Newton's method ends, in resolution cells. *Numeric.*
-const STEP_MIN_CELLS: f64 = 1e-6;
+/// Step of the speed at which Newton's method ends, in resolution cells: it converges quadratically, and the step after this one would be below 1e-5.
+/// *Numeric.*
+const STEP_MIN_CELLS: f64 = 2e-3;
 /// Largest step of the slope, as a change of speed over the block in resolution cells. *Numeric.*
 const SLOPE_STEP_CELLS_MAX: f64 = 4.0;
 /// Largest distance of the maximum from the range of the grid, in resolution cells; beyond, it belongs to another peak. *Decision.*

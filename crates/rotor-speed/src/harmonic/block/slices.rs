@@ -61,7 +61,10 @@ impl BlockSlices {
         let per_slice = count.div_ceil(SLICES_MAX);
         let slices = count.div_ceil(per_slice);
         let halves = count.div_ceil(HALF_HOP_TICKS);
-        let (turns, speeds) = lead_over_path(path, &ticks, guess);
+        let lead = Lead { path, middle_s: (ticks.start + ticks.end) as f64 / 2.0 * tick_s, guess };
+        let turns: Vec<f64> = lead.turns(ticks.clone());
+        let of_slices = lead.speeds_rev_s(ticks.clone(), per_slice);
+        let of_halves = lead.speeds_rev_s(ticks.clone(), HALF_HOP_TICKS);
         let mut phasors = OrderPhasors::new(&turns);
         let mut turned = Vec::with_capacity(count);
         let mut sums = vec![Complex::default(); lines.len() * slices];
@@ -71,11 +74,14 @@ impl BlockSlices {
         {
             // the mean time of the samples of a tick is half a sample before its middle
             let half_sample = TAU * line.order * tick_s / line.samples_per_tick / 2.0;
-            let ticks = line.ticks[ticks.clone()].iter().zip(phasors.of(line.order)).zip(&speeds);
+            let ticks = line.ticks[ticks.clone()].iter().zip(phasors.of(line.order));
             turned.clear();
-            turned.extend(ticks.map(|((z, phasor), speed)| z * phasor * small_turn(speed * half_sample)));
+            turned.extend(ticks.map(|(z, phasor)| z * phasor));
             sum_chunks(&turned, per_slice, sums);
             sum_chunks(&turned, HALF_HOP_TICKS, half_hops);
+            let turn_back = |(sum, speed): (&mut Complex<f64>, &f64)| *sum *= small_turn(speed * half_sample);
+            sums.iter_mut().zip(&of_slices).for_each(turn_back);
+            half_hops.iter_mut().zip(&of_halves).for_each(turn_back);
         }
         Self {
             lines: lines.iter().map(|line| BlockLine::new(line, count)).collect(),
@@ -110,17 +116,15 @@ impl BlockSlices {
     pub(crate) fn expansion(&self, d_speed: f64, d_slope: f64) -> Expansion {
         let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);
         let turns: Vec<f64> = self.times_s.iter().map(|t| t * (d_speed + d_slope * t / 2.0)).collect();
+        let powers: Vec<[f64; 5]> = self.times_s.iter().map(|t| [1.0, *t, t * t, t * t * t, t * t * t * t]).collect();
         let mut phasors = OrderPhasors::new(&turns);
         for (&BlockLine { order, scale, .. }, sums) in self.lines() {
             let w = TAU * order;
             // moments S_m = Σ z τ^m, m = 0 … 4
             let mut moments = [Complex::<f64>::default(); 5];
-            for ((z, phasor), &t) in sums.iter().zip(phasors.of(order)).zip(&self.times_s) {
-                let mut z = z * phasor;
-                for moment in &mut moments {
-                    *moment += z;
-                    z *= t;
-                }
+            for ((z, phasor), powers) in sums.iter().zip(phasors.of(order)).zip(&powers) {
+                let z = z * phasor;
+                moments.iter_mut().zip(powers).for_each(|(moment, power)| *moment += z * power);
             }
             let [s, s1, s2, s3, s4] = moments;
             // ∂S/∂n = −jw S₁, ∂S/∂γ = −jw S₂/2, and so on
@@ -185,21 +189,36 @@ pub(crate) struct LineSum {
     pub(crate) sum: Complex<f64>,
 }
 
-/// Angle in turns, and speed in rev/s, by which the line of speed `guess` is ahead of the path, in the middle of each tick. The angles
-/// are equal in the middle of the block.
-fn lead_over_path(path: &SpeedPath, ticks: &Range<usize>, guess: SpeedLine) -> (Vec<f64>, Vec<f64>) {
-    let tick_s = path.tick_s;
-    let middle_s = (ticks.start + ticks.end) as f64 / 2.0 * tick_s;
-    let turns_middle = path.turns_at(middle_s);
-    let SpeedLine { speed_rev_s: speed, slope_rev_s2: slope } = guess;
-    ticks
-        .clone()
-        .map(|tick| {
-            let t = (tick as f64 + 0.5) * tick_s - middle_s;
-            let turns = speed * t + slope * t * t / 2.0 - (path.turns_at_middle(tick) - turns_middle);
-            (turns, speed + slope * t - (path.speed_rev_s(tick) + path.speed_rev_s(tick + 1)) / 2.0)
-        })
-        .unzip()
+/// How far the line of speed `guess` is ahead of the path. Their angles are equal in the middle of the block.
+struct Lead<'a> {
+    path: &'a SpeedPath,
+    middle_s: f64,
+    guess: SpeedLine,
+}
+
+impl Lead<'_> {
+    /// Angle of the lead in the middle of each tick, in turns.
+    fn turns(&self, ticks: Range<usize>) -> Vec<f64> {
+        let turns_middle = self.path.turns_at(self.middle_s);
+        let SpeedLine { speed_rev_s: speed, slope_rev_s2: slope } = self.guess;
+        let turns = |tick: usize| {
+            let t = (tick as f64 + 0.5) * self.path.tick_s - self.middle_s;
+            speed * t + slope * t * t / 2.0 - (self.path.turns_at_middle(tick) - turns_middle)
+        };
+        ticks.map(turns).collect()
+    }
+
+    /// Speed of the lead in the middle of each sum of `per_sum` ticks.
+    fn speeds_rev_s(&self, ticks: Range<usize>, per_sum: usize) -> Vec<f64> {
+        let SpeedLine { speed_rev_s: speed, slope_rev_s2: slope } = self.guess;
+        let of_sum = |first: usize| {
+            let last = (first + per_sum).min(ticks.end);
+            let time_s = (first + last) as f64 / 2.0 * self.path.tick_s;
+            let of_path = self.path.turns_between(first, last) / ((last - first) as f64 * self.path.tick_s);
+            speed + slope * (time_s - self.middle_s) - of_path
+        };
+        ticks.clone().step_by(per_sum).map(of_sum).collect()
+    }
 }
 
 /// Middle of each slice of `per_slice` ticks from the middle of a block of `ticks` ticks, s. The last slice may be shorter.

@@ -92,8 +92,9 @@ impl BlockSlices {
                 *into = z * phasor;
                 sum += *into;
             }
-            let amplitude = sum.norm() / line.samples;
-            let likelihood = line.scale * sum.norm_sqr();
+            let power = sum.norm_sqr();
+            let amplitude = power.sqrt() / line.samples;
+            let likelihood = line.scale * power;
             amplitudes.push(amplitude);
             stats.strongest_power = stats.strongest_power.max(amplitude * amplitude);
             let is_heard = likelihood > LINE_LIKELIHOOD_MIN;
@@ -102,7 +103,7 @@ impl BlockSlices {
             // noise adds N V to |Σ z|²
             stats.information += 2.0 * (TAU * line.order).powi(2) * (likelihood - 1.0) * mean_square_s2;
             if line.is_strong {
-                let phase = (sum / sum.norm().max(f64::MIN_POSITIVE)).conj();
+                let phase = (sum / power.sqrt().max(f64::MIN_POSITIVE)).conj();
                 stats.phase_likelihood += line.scale * self.in_phase_energy(&turned, phase);
                 let squares = self.piece_squares(&turned, phase, line.scale, pieces.halves);
                 spreads.push(PhaseSpread { line: index, squares });
