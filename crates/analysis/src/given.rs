@@ -3,6 +3,9 @@
 use crate::Warning;
 use hovertone_vehicle::in_list;
 
+/// Part of the advice where rotors are not separated: it means nothing to a person who has given their number.
+const FEWER_ROTORS: &str = "if fewer rotors turn, give their number with --rotors; ";
+
 /// Advice where several rotors sound in the band.
 const NARROWER_BAND: &str = "hovertone follows whichever rotor is loudest at each moment; if several rotors turn, give their number with --rotors; to follow one \
      rotor, give a --band around its tone that is a few per cent wide";
@@ -26,6 +29,8 @@ pub struct GivenFacts {
     pub band: bool,
     /// The length of the frames.
     pub window: bool,
+    /// The number of rotors, by itself.
+    pub rotors: bool,
 }
 
 impl GivenFacts {
@@ -100,6 +105,7 @@ impl GivenFacts {
                 format!("{}, or give a narrower --band", self.in_given_words(warning.hint()))
             }
             Warning::SeveralLines { .. } if self.band => NARROWER_BAND.to_owned(),
+            Warning::RotorsNotApart { .. } if self.rotors => warning.hint().replace(FEWER_ROTORS, ""),
             other => self.in_given_words(other.hint()),
         };
         warnings.iter().map(hint).collect()
@@ -116,6 +122,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_given_number_of_rotors_is_not_asked_for() {
+        let apart =
+            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
+        let hint = |rotors: bool| GivenFacts { rotors, ..GivenFacts::default() }.hints(&[&apart]).remove(0);
+        assert!(hint(false).contains(FEWER_ROTORS) && !hint(true).contains("--rotors"), "{}", hint(true));
+    }
+
+    #[test]
     fn only_given_facts_are_named() {
         let nothing = GivenFacts::default();
         assert_eq!(nothing.in_words("and"), "the given facts");
@@ -128,6 +142,7 @@ mod tests {
             mass: true,
             band: true,
             window: true,
+            rotors: false,
         };
         let named = "the vehicle, the blades, the gear (--gear or --order), the diameter, the mass and the band";
         assert_eq!(all.in_words("and"), named);

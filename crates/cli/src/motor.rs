@@ -23,7 +23,7 @@ use hovertone_dynamics::{
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
 use hovertone_report::{
-    LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text, significant,
+    LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text, printable, significant,
 };
 use hovertone_vehicle::LOGGED_REV_S_MAX;
 use std::path::Path;
@@ -135,14 +135,14 @@ impl<'a> Plan<'a> {
             order: self.arguments.tone.order,
             ..MotorSound::default()
         };
-        let (mut motors, mut rows, mut misaligned) = (Vec::new(), Vec::new(), None);
+        let (mut motors, mut rows, mut unused) = (Vec::new(), Vec::new(), None);
         match heard.motor {
             Err(reason) => sound.no_tone = Some(reason.to_string()),
             Ok(motor) => {
                 (sound.frame_s, sound.offset_s) = (motor.frame_s, motor.offset_s);
-                misaligned = self.misaligned(motor.other_offset_s);
                 let is_used = motor.model.as_ref().is_some_and(|model| model.static_map.is_some());
                 let command = commands.and_then(|(commands, _)| commands.names.first()).filter(|_| is_used).cloned();
+                unused = self.misaligned(motor.other_offset_s).or_else(|| self.unused_commands().filter(|_| !is_used));
                 let name = if self.arguments.known.rotors == Some(1) { ONE_ROTOR } else { ALL_ROTORS };
                 motors.extend(motor.model.map(|model| LoggedMotor { name: name.to_owned(), command, model }));
                 sound.no_tone = motors.is_empty().then(|| self.nothing_held());
@@ -152,8 +152,8 @@ impl<'a> Plan<'a> {
         let record =
             MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors, torque: None };
         let idle_mass = idle_mass(&self.arguments.known, &self.config.known);
-        let notices = idle_mass.into_iter().chain(heard.notices).chain(misaligned).collect();
-        Ok(Told { record, rows, notices, is_whole: true })
+        let notices = idle_mass.into_iter().chain(heard.notices).chain(unused.clone()).collect();
+        Ok(Told { record, rows, notices, is_whole: unused.is_none() })
     }
 }
 
@@ -166,6 +166,16 @@ impl Plan<'_> {
             "no speed stays the same for a second, or the rotor is too faint; {advice}, in which each speed stays \
              the same for a second or longer, or place the microphone nearer"
         )
+    }
+
+    /// That the commands of a log do not belong to this sound; `None` where none are given.
+    fn unused_commands(&self) -> Option<Notice> {
+        let log = self.arguments.commands.as_ref()?;
+        let what = format!(
+            "the commands of {} are not used: they and the heard speeds do not change at the same times",
+            printable(&log.display().to_string())
+        );
+        Some(Notice::new(what, "check that the log and the recording are of the same run"))
     }
 
     /// That the steps of commands and sound agree at another offset than the given one.

@@ -13,7 +13,7 @@ use crate::scale_uncertainty::check_stds;
 use crate::settings::span_of;
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
-use crate::weighed_tone::{tone_in_words, tone_to_hear};
+use crate::weighed_tone::{tip_of_tone, tone_to_hear, warning_of_other_tone};
 use crate::wording::IN_HOVER;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighError, WeighedHover};
@@ -29,6 +29,8 @@ const SEE_HELP: &str = "see `hovertone weigh --help`";
 const CHECK_MODEL: &str = "check the name after --vehicle, the thrust constant (of the whole vehicle, in N/(rad/s)²), and the blades or the gear; if all are right, give the mass of the vehicle with --mass-kg";
 /// Thrust constants of vehicles, N s²: from one propeller of 10 mm to eight of 3 m, at any thrust coefficient.
 const CONSTANT_N_S2: RangeInclusive<f64> = 1e-11..=10.0;
+/// Mass by the sound over that of the vehicle, where the constant of one rotor was typed and is corrected.
+const OF_ONE_ROTOR: RangeInclusive<f64> = 0.8..=2.0;
 /// Standard uncertainty of a kitchen scale that shows whole grams.
 const MASS_STD_KG: f64 = 0.0005;
 
@@ -59,9 +61,10 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     if let Some((rotor, path)) = results.as_ref().zip(arguments.constant.as_deref()) {
         say_doubts(rotor, path, terminal);
     }
-    if let Some(notice) = tone_in_words(&arguments.tone, results.as_ref())? {
+    if let Some(notice) = tip_of_tone(&arguments.tone, results.as_ref())? {
         terminal.tip(&notice);
     }
+    let of_tone = warning_of_other_tone(&arguments.tone, results.as_ref())?;
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
@@ -83,7 +86,11 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let weighed = scale.weigh(&hovers);
     if let Some(weighed) = &weighed {
         let without_band = if arguments.tone.band.is_some() { "leave --band out; if the message stays, " } else { "" };
-        let refused = |error: WeighError| Failure::usage(error.to_string(), format!("{without_band}{}", error.hint()));
+        let of_one = || constant_of_one(arguments.constant_n_s2, plan.config.rotors.count, weighed, &scale);
+        let refused = |error: WeighError| {
+            let hint = of_one().unwrap_or_else(|| format!("{without_band}{}", error.hint()));
+            Failure::usage(error.to_string(), hint)
+        };
         weighed.check().map_err(refused)?;
         let of_model = plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg));
         of_model.map_err(|error| Failure::usage(error.to_string(), CHECK_MODEL))?;
@@ -96,7 +103,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         false => results.as_ref().filter(|rotor| rotor.forbids_use).map(|_| DOUBTFUL_CONSTANT),
     };
     let of_mass = weighed.iter().filter_map(WeighedHover::warning).map(|warning| Notice::from(&warning));
-    let warnings: Vec<Notice> = foreign.into_iter().chain(of_mass).collect();
+    let warnings: Vec<Notice> = foreign.into_iter().chain(of_tone).chain(of_mass).collect();
     let about: Vec<&SpeedRecord> = records.iter().collect();
     terminal.counted_notes_and(&warnings, &about);
     if arguments.json {
@@ -107,6 +114,24 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         terminal.text(&weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), said))?;
     }
     Ok(ending_of(&records).max(if doubt.is_some() { Ending::Incomplete } else { Ending::Done }))
+}
+
+/// The advice where a typed constant seems to be that of one rotor: with that of all rotors, the vehicle weighs about its own mass or somewhat more.
+fn constant_of_one(
+    typed_n_s2: Option<f64>,
+    rotor_count: u32,
+    weighed: &WeighedHover,
+    scale: &AcousticScale,
+) -> Option<String> {
+    let (typed_n_s2, rotors) = (typed_n_s2.filter(|_| rotor_count > 1)?, f64::from(rotor_count));
+    let share = rotors * weighed.mass_kg.value / scale.vehicle_mass_kg?.value;
+    OF_ONE_ROTOR.contains(&share).then(|| {
+        format!(
+            "is {typed_n_s2:e} the constant of one rotor? --constant-n-s2 is that of the whole vehicle: for {rotor_count} such rotors give \
+             --constant-n-s2 {}; if it is of the whole vehicle, check --mass-kg, and the blades or the gear",
+            number_in_words(rotors * typed_n_s2)
+        )
+    })
 }
 
 /// Refuses recordings of different loads: their mean mass is that of none.

@@ -48,14 +48,27 @@ pub(crate) fn tone_to_hear(
     Ok(tone)
 }
 
-/// What a person must know of the tone that is heard beside a constant: that no flag names it, so that it is that of the constant; or that the flags
-/// name another one, so that the sound does not show whether it is the same vehicle. `None` where they name that of the constant.
-pub(crate) fn tone_in_words(
+/// The warning that the flags name another tone than that of the constant, so that the sound does not show whether it is the same vehicle. `None`
+/// where they name that of the constant, or none.
+pub(crate) fn warning_of_other_tone(
     typed: &ToneArguments,
     results: Option<&IdentifiedRotor>,
 ) -> Result<Option<Notice>, Failure> {
+    let (Some(heard), Some(said)) = (results.and_then(|rotor| rotor.tone), tone_of(typed)?) else { return Ok(None) };
+    Ok((said.order.lines_per_turn() != heard.order).then(|| {
+        Notice::new(
+            "the flags name another tone than that of the constant: the sound does not show whether this is the same vehicle, \
+             and the mass of another vehicle is wrong",
+            "leave the flags of the tone out: then hovertone hears the tone of the constant, and says so if it does not fit",
+        )
+    }))
+}
+
+/// The tip that no flag names the tone, so that it is that of the constant. `None` where a flag does.
+pub(crate) fn tip_of_tone(typed: &ToneArguments, results: Option<&IdentifiedRotor>) -> Result<Option<Notice>, Failure> {
     let Some(heard) = results.and_then(|rotor| rotor.tone) else { return Ok(None) };
     Ok(match tone_of(typed)? {
+        Some(_) => None,
         None => Some(Notice::new(
             format!(
                 "no flag says which tone to hear, so hovertone listens for the tone of the constant: it sounds {}",
@@ -64,11 +77,6 @@ pub(crate) fn tone_in_words(
             "this is right with the same propellers as in the recordings of the constant; for others, measure a constant first with \
              `hovertone identify`",
         )),
-        Some(said) if said.order.lines_per_turn() != heard.order => Some(Notice::new(
-            "the flags name another tone than that of the constant, so the sound does not show whether this is the same vehicle",
-            "leave the flags of the tone out: then hovertone hears the tone of the constant",
-        )),
-        Some(_) => None,
     })
 }
 

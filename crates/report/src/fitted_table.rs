@@ -43,6 +43,9 @@ pub struct FittedTable {
     pub torque_constant_per_rotor_n_m_s2: Option<f64>,
     /// Whether a warning says not to use the constant.
     pub forbids_use: bool,
+    /// Whether a warning says so, or that the rows contradict each other.
+    #[serde(skip)]
+    pub is_incomplete: bool,
     /// Notices about rows that were left out or turned round, and warnings about the fit.
     pub notices: Vec<Notice>,
 }

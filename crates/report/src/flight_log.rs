@@ -42,7 +42,20 @@ impl FlightLogRecord {
         let not_compared = self.not_verified.as_ref().map(|Notice { text, hint, .. }| {
             Notice::new(format!("the sound was not compared with {}: {text}", self.file), hint.clone())
         });
-        failed.into_iter().chain(undecided).chain(not_compared).collect()
+        failed.into_iter().chain(undecided).chain(not_compared).chain(self.unused()).collect()
+    }
+
+    /// The warning that the log tells nothing: it has no speeds to compare, and does not name the rotors.
+    fn unused(&self) -> Option<Notice> {
+        let has_check = self.verification.is_some() || self.not_verified.is_some();
+        let reason = self.reason_of_labels().filter(|_| !has_check && self.motors.motors.is_empty())?;
+        Some(Notice::new(
+            format!(
+                "{} is not used: it has no speeds of these motors, and it does not name the rotors: {reason}",
+                self.file
+            ),
+            "give a log that has the speeds of this vehicle's motors; `hovertone log FILE` lists what a log has",
+        ))
     }
 
     /// The heard rotors, each with what the log tells of it.

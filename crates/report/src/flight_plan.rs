@@ -32,11 +32,12 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
         }
         None => "These recordings are too few to test the law F = C_f ω² to 2 % of the force, even with the best loads.".to_owned(),
     };
-    let separated = match plan.largest {
+    let advice = match plan.largest {
         BudgetInput::LoudestRotor => {
             "\nThis assumes that one tone is used for all rotors. If `hovertone speed` separates your rotors, or hears them \
             as a group, add --rotors-separated."
         }
+        BudgetInput::Gravity => "\nThe place of the flight makes this part smaller: plan again with --latitude-deg.",
         _ => "",
     };
     let hover = match plan.hover_s {
@@ -46,7 +47,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     format!(
         "Plan: {} loads ({} added), {} of each load, {:.0} s of hover in each recording: {hover} of hover in all\n\
          Wanted: C_f ± {} % or less (k = 2; another wish: --wanted-share). Expected: ± {} %. The largest part of this ± comes from: \
-         {}.{separated}\n{intercept}\n",
+         {}.{advice}\n{intercept}\n",
         plan.load_count,
         in_list(&added, "and"),
         counted(plan.trials_per_load, "recording"),

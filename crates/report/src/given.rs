@@ -31,6 +31,7 @@ impl SpeedRecord {
             mass: !is_of_load && differs("/known/mass_kg", preset.and_then(|preset| Some(preset.mass_kg?.value))),
             band: self.setting("/tone/band_hz").is_some(),
             window: self.setting("/spectrogram/window_s").is_some(),
+            rotors: vehicle.is_none() && self.setting("/known/rotor_count").is_some(),
         }
     }
 

@@ -16,6 +16,8 @@ use hovertone_vehicle::{Axis, Estimate, RotorSpeed, in_list};
 
 const MS_PER_S: f64 = 1e3;
 const PERCENT: f64 = 100.0;
+/// Shortest flight to which the tests of the ± apply: they flew a minute.
+const TESTED_S: f64 = 50.0;
 
 /// A fitted grey box and what belongs to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +30,8 @@ pub struct GreyBoxRecord {
     pub vehicle: String,
     /// Whether the log has speeds of the rotors, and these were used.
     pub are_speeds_logged: bool,
+    /// Time from the first to the last speed.
+    pub length_s: f64,
     /// The fit.
     pub fit: GreyBoxFit,
     /// Volts per rad/s of the rotor about hover, by the vehicle's numbers.
@@ -114,14 +118,25 @@ pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
 }
 
 /// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
-pub(crate) fn trust(record: &GreyBoxRecord) -> &'static str {
+pub(crate) fn trust(record: &GreyBoxRecord) -> String {
+    let tested = match record.are_speeds_logged {
+        true => {
+            "the ± is about right: in simulated flights of a minute, 90 to 100 % of the errors were within it, and 95 % should be"
+        }
+        false => {
+            "the ± is a little too small: in simulated flights of a minute outdoors, 83 to 91 % of the errors were within it, and 95 % should be; compare with another flight (--check)"
+        }
+    };
     if record.is_doubtful() {
-        "the numbers may be wrong by more than their ±: the warnings name the reason"
-    } else if record.are_speeds_logged {
-        "the ± is about right: in simulated flights, 90 to 100 % of the errors were within it, and 95 % should be"
-    } else {
-        "the ± is a little too small: in simulated flights outdoors, 83 to 91 % of the errors were within it, and 95 % should be; compare with another flight (--check)"
+        return "the numbers may be wrong by more than their ±: the warnings name the reason".to_owned();
     }
+    if record.length_s < TESTED_S {
+        return format!(
+            "the ± may be too small, because the flight is short: {:.0} s, where the flights that the ± was tested with had 60 s",
+            record.length_s
+        );
+    }
+    tested.to_owned()
 }
 
 /// Lines beside the tables: what to trust, C_τ, rank, gaps, checks.
@@ -133,8 +148,21 @@ pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
     let checks = check_lines(record);
     let checks = checks.lines().map(str::to_owned);
     let moved = moved_in_words(&record.log, record.log_moved_s);
-    let first = std::iter::once(trust(record).to_owned()).chain(torque);
-    first.chain([rank_line(record)]).chain(moved).chain(checks).chain(advice).collect()
+    let first = std::iter::once(trust(record)).chain(torque);
+    first.chain([rank_line(record)]).chain(negative_delay(record)).chain(moved).chain(checks).chain(advice).collect()
+}
+
+/// That a delay is below zero by more than its ±, which no delay is; `None` where none is.
+fn negative_delay(record: &GreyBoxRecord) -> Option<String> {
+    let is_negative = |delay: &Parameter| {
+        let told = record.fit.estimate(*delay);
+        told.is_some_and(|told| told.value + COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0) < 0.0)
+    };
+    let delay = [Parameter::CommandDelay, Parameter::MeasuredDelay].into_iter().find(is_negative)?;
+    Some(format!(
+        "{} is negative: the clock of the log is late there, by up to the time between two log rows, or the model does not fit",
+        delay.in_words()
+    ))
 }
 
 /// What speaks against the model: gains that no controller has, and a rotor of another vehicle.

@@ -120,7 +120,7 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
             change_share: other.result.map(|result| result.change_share),
             compared_share: other.result.map(|result| result.compared_share),
         }),
-        warnings: std::iter::once(trust(record).to_owned()).chain(warnings).collect(),
+        warnings: std::iter::once(trust(record)).chain(warnings).collect(),
         version: VERSION,
     };
     serde_json::to_string(&line)

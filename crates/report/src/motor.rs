@@ -180,7 +180,8 @@ fn load_text(constants: &MotorConstants) -> String {
     let Some(LoadTerm { unloaded_rate_per_s, square_per_rev, .. }) = constants.load_term else {
         let count = constants.time_constant_up_s.map_or(0, |up| up.step_count);
         let why = if count < LOAD_STEPS_MIN {
-            format!("rising steps to {LOAD_STEPS_MIN} different speeds are needed, and there are {count}")
+            let (are, count) = if count == 1 { ("is", "only one".to_owned()) } else { ("are", count.to_string()) };
+            format!("rising steps to {LOAD_STEPS_MIN} different speeds are needed, and there {are} {count}")
         } else {
             format!(
                 "the time constants of the {count} rising steps are too uncertain, or their speeds are too alike; more \

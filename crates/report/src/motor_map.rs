@@ -15,12 +15,11 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     if record.motors.iter().all(|motor| motor.command.is_none()) {
         return match record.source {
             MotorSource::Log => {
-                "\nspeed of each command: not known, because this log has no commands, or none of them changes\n".to_owned()
+                "\nspeed of each command: not known, because this log has no commands, or none of them changes\n"
+                    .to_owned()
             }
             MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
-                "\nspeed of each command: not known, because the commands and the heard speeds do not change at the same times; check that both are \
-                of the same run\n"
-                    .to_owned()
+                "\nspeed of each command: not known, because the commands are not used\n".to_owned()
             }
             MotorSource::Sound(_) => {
                 "\nspeed of each command: not known without the commands (give --commands LOG)\n".to_owned()
@@ -61,7 +60,7 @@ fn gains_table(record: &MotorRecord) -> TextTable {
     };
     // no rotor turns backwards at the command 0: such a motor has a threshold
     let has_offsets = record.motors.iter().filter_map(told_of).any(|(_, offset_rev_s)| offset_rev_s >= 0.0);
-    let offset = Column::numbers("speed at command 0, by the gain", "rev/s");
+    let offset = Column::numbers("line at command 0", "rev/s");
     let mut columns = vec![Column::words("motor"), Column::words("command"), Column::numbers("gain", "rev/s per unit")];
     columns.extend(has_offsets.then_some(offset));
     let mut shown = TextTable::new(columns);

@@ -4,7 +4,7 @@ use crate::flight_log::{FlightLogLine, FlightLogRecord};
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::version::VERSION;
-use hovertone_analysis::{Hover, Method, RotorsHeard, RotorsHeardCounts};
+use hovertone_analysis::{Hover, Method, RotorsHeard, RotorsHeardCounts, Verification};
 use hovertone_thrust::{
     COVERAGE_FACTOR, Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap,
     UncertaintyBudget, VehicleModel,
@@ -66,7 +66,16 @@ impl Identification<'_> {
 
     /// Number of logs that contradict the order or the clock of their recordings.
     pub fn failed_check_count(&self) -> usize {
-        self.inputs.iter().filter_map(|input| input.log.as_ref()).filter(|log| log.has_failed_check()).count()
+        self.logs().filter(|log| log.has_failed_check()).count()
+    }
+
+    /// Number of logs that confirm the order and the clock of their recordings.
+    pub fn passed_check_count(&self) -> usize {
+        self.logs().filter(|log| log.verification.as_ref().is_some_and(Verification::passes)).count()
+    }
+
+    fn logs(&self) -> impl Iterator<Item = &FlightLogRecord> {
+        self.inputs.iter().filter_map(|input| input.log.as_ref())
     }
 }
 

@@ -128,10 +128,10 @@ pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
     let total_unit = values(&|table| table.thrust_constant_total_n_s2);
     let rotor_unit = values(&|table| table.thrust_constant_per_rotor_n_s2);
     let mut text = TextTable::new(vec![
-        Column::words("C_f = F/ω², ± is k = 2"),
-        Column::numbers("whole vehicle", &total_unit.unit(CONSTANT_UNIT)),
-        Column::numbers("one rotor", &rotor_unit.unit(CONSTANT_UNIT)),
-        Column::numbers("mean of loads", &total_unit.unit(CONSTANT_UNIT)),
+        Column::words("C_f = F/ω² (± is k = 2)"),
+        Column::numbers("whole vehicle, fit", &total_unit.unit(CONSTANT_UNIT)),
+        Column::numbers("one rotor, fit", &rotor_unit.unit(CONSTANT_UNIT)),
+        Column::numbers("plain mean of the loads", &total_unit.unit(CONSTANT_UNIT)),
     ]);
     for table in tables {
         let mark = if table.method == reported { " (reported)" } else { "" };

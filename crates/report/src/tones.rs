@@ -241,7 +241,7 @@ fn line_of_rotor(family: &ToneFamily, rotor: &ToneFamily) -> Option<String> {
     let is_near = (ratio / harmonic - 1.0).abs() < NEAR_ROTOR_SHARE && OTHER_HARMONICS.contains(&harmonic);
     is_near.then(|| {
         let rev_s = significant(family.fundamental_hz / (harmonic * blades), DIGITS);
-        format!("perhaps harmonic {harmonic} of another rotor, at {rev_s} rev/s")
+        format!("perhaps harmonic {harmonic} of another rotor ({}: {rev_s} rev/s)", reading.meaning)
     })
 }
 
@@ -256,7 +256,7 @@ fn readings_in_a_line(family: &ToneFamily, of_rotor: Option<&str>) -> String {
             format!("{INDENT}no speed of a rotor explains it ({why})\n")
         }
         false => match of_rotor {
-            Some(of_rotor) => format!("{INDENT}{of_rotor}; as a tone of its own: {}\n", words.join(" · ")),
+            Some(of_rotor) => format!("{INDENT}{of_rotor}; if it is a tone of its own: {}\n", words.join(" · ")),
             None => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
         },
     }

@@ -8,9 +8,13 @@ use crate::text_table::{Column, TextTable};
 use crate::version::VERSION;
 use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, Verification, percent_in_words};
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// Millionths of a share.
 pub(crate) const PPM: f64 = 1e6;
+
+/// A ratio of speeds is that of two units if it is this near, as a share.
+const UNIT_SHARE: f64 = 0.02;
 
 /// Why equal means do not show that the log is of this flight: the speeds are steady, or the heard ones do not follow quick changes.
 const OFFSET_NOT_KNOWN: &str = "the offset of the clocks is not known";
@@ -146,12 +150,28 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
             "check the number of blades (or the gear); check the number of pole pairs in the \
             ESC's settings; check that the log is of this flight",
         )),
+        None if let Some(units) = units_in_words(found.speed_ratio) => Some(Notice::new(
+            format!("the heard speeds are {} times the logged speeds: {units}", significant(found.speed_ratio, 3)),
+            "check the unit of the speeds in the log",
+        )),
         None => Some(Notice::new(
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
             "check the number of blades (or the gear) and the clock of the recorder; check that \
             the log is of this flight",
         )),
     }
+}
+
+/// Which unit of the log explains a ratio of heard and logged speeds: its header says another unit than its numbers have.
+fn units_in_words(speed_ratio: f64) -> Option<String> {
+    let of_turns = [("rpm", 1.0 / 60.0), ("rev/s", 1.0), ("rad/s", 1.0 / TAU)];
+    let pairs = of_turns.into_iter().flat_map(|read| of_turns.into_iter().map(move |meant| (read, meant)));
+    let (read, meant) = pairs
+        .filter(|((read, _), (meant, _))| read != meant)
+        .map(|((read, of_read), (meant, of_meant))| ((read, meant), of_meant / of_read))
+        .find(|(_, ratio)| (speed_ratio / ratio - 1.0).abs() < UNIT_SHARE)?
+        .0;
+    Some(format!("the log seems to hold {meant}, but is read as {read}"))
 }
 
 /// "3/2", "2".

@@ -49,7 +49,7 @@ pub(crate) fn drift_text(drift: &Drift) -> String {
 
 pub(crate) fn range_text(range: &LoadRange) -> String {
     let Some(needed) = range.force_ratio_needed else {
-        return "the forces and speeds are too uncertain to test F = C_f ω²: they scatter too much, or their stated uncertainties are too large".to_owned();
+        return "the forces and speeds are too uncertain to test F = C_f ω²".to_owned();
     };
     let [ratio, needed] = compared([range.force_ratio, needed]);
     format!(

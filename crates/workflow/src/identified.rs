@@ -1,7 +1,7 @@
 //! An experiment whose recordings were heard: the fits of its loads, and what is said of them.
 
 use hovertone::experiment::Experiment;
-use hovertone::speed::{Method, SpeedEstimate};
+use hovertone::speed::{Method, SpeedEstimate, Warning};
 use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, ThrustWarning, TrialSpeeds, thrust_from_loads};
 use hovertone_page::names_of;
 use hovertone_report::{
@@ -132,7 +132,7 @@ impl Identified {
         let experiment = &self.experiment;
         let heard = self.inputs.iter().filter(|input| input.record.speed().is_some()).count();
         format!(
-            "{}: {}, {}; {}, {}, {heard} of them with a speed; {}\n",
+            "{}: {}, {}; {}; a speed was heard in {heard} of {}; {}\n",
             printable(&experiment.vehicle_name),
             counted(experiment.rotor_count as usize, "rotor"),
             tone_of_order(experiment.config.tone.order),
@@ -170,19 +170,37 @@ impl Identified {
         match self.reported().and_then(|table| Some((table, quoted_constants(table)?))) {
             Some((table, constants)) => {
                 let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| heard + "\n");
-                let failed = match self.identification().failed_check_count() {
-                    0 => String::new(),
-                    count => format!("the speeds in {} do not fit the sound\n", counted(count, "log")),
+                let heard = match self.partly_separated_count() {
+                    0 => heard,
+                    count if table.rotors_heard.separated > 0 => {
+                        heard.trim_end().to_owned()
+                            + &format!("; in {} not all rotors could be separated\n", counted(count, "recording"))
+                    }
+                    _ => heard,
                 };
+                let in_logs = |count: usize, verb: &str| match count {
+                    0 => String::new(),
+                    _ => format!("the speeds in {} {verb} the sound\n", counted(count, "log")),
+                };
+                let identification = self.identification();
+                let of_logs = in_logs(identification.failed_check_count(), "do not fit")
+                    + &in_logs(identification.passed_check_count(), "fit");
                 let verdict = format!("verdict: {}", printable(Verdict::of(table).words()));
                 let first = match table.forbids_use() {
                     true => format!("{verdict}\ndo not use this constant: {constants}\n"),
                     false => format!("{constants}\n{verdict}\n"),
                 };
-                first + &heard + &failed
+                first + &heard + &of_logs
             }
             None => "C_f: none, since no recording has a speed\nverdict: nothing is identified\n".to_owned(),
         }
+    }
+
+    /// Number of recordings in which some rotors are separated, but not all.
+    fn partly_separated_count(&self) -> usize {
+        let is_partial = |warning: &Warning| matches!(warning, Warning::RotorsNotApart { resolved: 1.., .. });
+        let has = |record: &&SpeedRecord| record.analysis().is_some_and(|it| it.warnings.iter().any(is_partial));
+        self.records().into_iter().filter(has).count()
     }
 
     /// The records of all recordings.

@@ -1,5 +1,6 @@
 //! Changes between two archives as text for people and as JSON.
 
+use super::tail::covering_stds;
 use super::{Change, Drift, FALSE_ALARM_CHANCE};
 use hovertone_report::{Column, TextTable, VERSION, counted, printable, table_text};
 use serde_json::json;
@@ -25,7 +26,7 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         Column::words(title_of_rotors(drift)),
         Column::numbers("recordings", ""),
         Column::numbers("change", "%"),
-        Column::numbers("± (k = 2)", "%"),
+        Column::numbers("± (95 %)", "%"),
         Column::numbers("p-value", ""),
         Column::words("verdict"),
     ]);
@@ -118,7 +119,7 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
         Column::words("recording"),
         Column::words(title_of_rotors(drift)),
         Column::numbers("change", "%"),
-        Column::numbers("± (k = 2)", "%"),
+        Column::numbers("± (95 %)", "%"),
         Column::numbers("p-value", ""),
         Column::words("verdict"),
     ]);
@@ -161,7 +162,7 @@ fn cells_of(change: &Change) -> Vec<String> {
     };
     vec![
         format!("{:+.3}", in_percent(change.change_share)),
-        format!("{:.3}", in_percent(2.0 * change.std_uncertainty_share)),
+        format!("{:.3}", in_percent(covering_stds(change.degrees_of_freedom) * change.std_uncertainty_share)),
         chance,
         if change.has_changed { "has changed" } else { "no change seen" }.to_owned(),
     ]

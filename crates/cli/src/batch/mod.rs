@@ -127,12 +127,13 @@ fn say(said: &Said<'_>, wants_json: bool, terminal: &mut Terminal) -> Result<(),
     let place = |name: &str| printable(&said.folder.place(name).display().to_string());
     let text = match said.all {
         Some(counts) => format!(
-            "{}: {counts}\nheard in this run: {}\ntables: {}, {}\npage: {}\n",
+            "{}: {counts}\nheard in this run: {}\ntables: {}, {}\npage: {}{}\n",
             counted(recording_count, "recording"),
             said.heard.total(),
             place(tables::RECORDINGS),
             place(tables::TRACKS),
-            place(tables::OVERVIEW)
+            place(tables::OVERVIEW),
+            if counts.with_warnings > 0 { ", with the warnings of each recording" } else { "" }
         ),
         None => format!(
             "job {} has ended; it heard {}: {}\nthe job that ends last writes the tables\n",

@@ -6,13 +6,15 @@ use crate::failure::Failure;
 use crate::order_words::{times, times_per_turn};
 use crate::vehicles::preset;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
-use hovertone_report::{fixed, printable, signed, with_uncertainty};
+use hovertone_report::{fixed, printable, signed, significant, with_uncertainty};
 use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Gear, Order, RotorSpeed};
 use serde_json::json;
 
 const SECONDS_PER_MINUTE: f64 = 60.0;
 /// Share by which the known speed of one rotor may differ from the mean of several. *Decision.*
 const ROTORS_SHARE: f64 = 0.25;
+/// A ratio of the heard and the known speed is a whole number if it is this near, as a share.
+const SLIP_SHARE: f64 = 0.1;
 /// Millionths in a hundredth.
 const PPM_PER_PERCENT: f64 = 1e4;
 /// Largest error of a clock.
@@ -130,11 +132,22 @@ fn in_turns_per_second(rpm: f64) -> String {
     format!("Does the rotor turn {rpm} times per second, not per minute? Then give --tachometer-rpm {right}")
 }
 
-/// Asks whether the known speed was in turns per second, where several rotors are heard near sixty times it.
-pub(super) fn slip_of_turns_per_second(reference: Reference, heard: RotorSpeed) -> Option<String> {
+/// What is heard where no speed is measured, and how the known speed may have become another one: in words that follow a sentence.
+pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Option<String> {
     let Reference::Speed { rpm, .. } = reference else { return None };
-    let is_near = (heard.rpm() / (SECONDS_PER_MINUTE * rpm) - 1.0).abs() < ROTORS_SHARE;
-    is_near.then(|| in_turns_per_second(rpm))
+    let ratio = heard.rpm() / rpm;
+    let is_near = |of_slip: f64, share: f64| (ratio / of_slip - 1.0).abs() < share;
+    if is_near(SECONDS_PER_MINUTE, ROTORS_SHARE) {
+        return Some(format!(". {}", in_turns_per_second(rpm)));
+    }
+    let about = significant(heard.rpm(), 3);
+    let of_known = |slip: f64| match slip {
+        0.5 => "half of the known speed".to_owned(),
+        slip => format!("{slip} times the known speed"),
+    };
+    let slip = [2.0, 3.0, 4.0, 0.5].into_iter().find(|slip| is_near(*slip, SLIP_SHARE));
+    let checked = |slip| format!("; about {about} rpm are heard, {}: check the number of blades", of_known(slip));
+    Some(slip.map_or_else(|| format!("; about {about} rpm are heard"), checked))
 }
 
 /// The comparison for people.

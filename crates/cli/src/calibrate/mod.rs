@@ -11,7 +11,7 @@ use crate::recording::{Hearing, Job, Requests, line_in_band, records_of};
 use crate::settings::config_of;
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
-use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words, slip_of_turns_per_second};
+use comparison::{Comparison, HeardSpeed, Reference, as_json, heard_beside_known, in_words};
 use hovertone::calibration::Judgement;
 use hovertone::sound::HeardBand;
 use hovertone::speed::{Config, NoTone, SpeedAnalysis, Warning};
@@ -36,7 +36,8 @@ const HARDLY_HEARD: &str = "tone_hardly_heard";
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
 const SEVERAL_IN_WORDS: &str = "several rotors are heard, or one rotor whose speed changes, and the known speed belongs to \
-                                one steady rotor; record one rotor that runs alone, at a steady throttle";
+                                one steady rotor";
+const RECORD_ONE: &str = "record one rotor that runs alone, at a steady throttle";
 const SEE_HELP: &str = "for example `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 const SEE_HELP_OF_SPEED: &str =
     "for example `hovertone calibrate --tachometer-rpm 3600 --blades 2 rotor.wav`; see `hovertone calibrate --help`";
@@ -123,11 +124,8 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress)
     };
     if record.as_ref().and_then(SpeedRecord::analysis).is_some_and(hears_several) {
         let heard = record.as_ref().and_then(|record| Some(record.speed()?.speed));
-        let slip = heard.and_then(|heard| slip_of_turns_per_second(reference, heard));
-        return undecided(
-            SEVERAL_ROTORS,
-            slip.map_or(SEVERAL_IN_WORDS.to_owned(), |slip| format!("{SEVERAL_IN_WORDS}. {slip}")),
-        );
+        let heard = heard.and_then(|heard| heard_beside_known(reference, heard)).unwrap_or_default();
+        return undecided(SEVERAL_ROTORS, format!("{SEVERAL_IN_WORDS}{heard}; {RECORD_ONE}"));
     }
     if let Some(record) = record.as_ref().filter(|record| record.is_ambiguous()) {
         return undecided(

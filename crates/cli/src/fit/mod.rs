@@ -86,9 +86,9 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
     Ok(ending)
 }
 
-/// A constant that must not be used is no complete answer.
+/// A constant that must not be used, or of rows that contradict each other, is no complete answer.
 fn ending_of(tables: &[FittedTable]) -> Ending {
-    if tables.iter().any(|table| table.forbids_use) { Ending::Incomplete } else { Ending::Done }
+    if tables.iter().any(|table| table.is_incomplete) { Ending::Incomplete } else { Ending::Done }
 }
 
 /// The notice where a diameter is given without the air, or the air without a diameter.
@@ -182,6 +182,7 @@ fn fitted_table(
         figure_of_merit,
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
         forbids_use: warnings.iter().any(ThrustWarning::forbids_use),
+        is_incomplete: warnings.iter().any(ThrustWarning::makes_incomplete),
         notices: notes
             .chain(too_strong)
             .chain(warnings.iter().map(|warning| notice_of(warning, std_columns)))

@@ -24,7 +24,7 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
     match warning {
         ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => Notice::new(
             warning.to_string(),
-            "check the speeds, the forces and the uncertainties that you stated, and measure more rows",
+            "correct the rows that do not fit, if there are any; if not, measure more rows; if you stated uncertainties, check them",
         ),
         ThrustWarning::NarrowLoadRange(_) => Notice::new(
             warning.to_string(),

@@ -74,8 +74,8 @@ fn hint_against(largest: BudgetInput) -> &'static str {
              local gravity"
         }
         BudgetInput::LoudestRotor => {
-            "give a larger --wanted-share; or record so near the vehicle that `hovertone speed` separates the rotors, \
-             and plan again with --rotors-separated"
+            "give a larger --wanted-share; or record so near the vehicle that `hovertone speed` separates the rotors \
+             or hears them as a group, and plan again with --rotors-separated"
         }
         _ => "give a larger --wanted-share",
     }

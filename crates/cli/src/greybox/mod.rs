@@ -17,7 +17,7 @@ use crate::progress::Progress;
 use crate::recording::Hearing;
 use crate::terminal::Terminal;
 use crate::text_file::{TextFormat, TextKind};
-use hovertone_dynamics::{YawInertia, advice_of, checked, torque_constant};
+use hovertone_dynamics::{SpeedObservation, YawInertia, advice_of, checked, torque_constant};
 use hovertone_figures::{DOTS_PER_INCH, DrawnSpeeds, grey_box_figure};
 use hovertone_logs::RateAxes;
 use hovertone_report::{CheckedFlight, GreyBoxRecord, Notice, grey_box_json, grey_box_text, grey_box_warnings};
@@ -106,6 +106,7 @@ pub(crate) fn record_of(
         log: files.log_name(),
         vehicle: vehicle.id().to_owned(),
         are_speeds_logged: files.recording.is_none(),
+        length_s: length_s(&heard.observations),
         fit: heard.fit.clone(),
         slope_v_s_rad: vehicle.slope_v_s_rad(&heard.fit),
         places: vehicle.parameters.layout.value.place_names(),
@@ -123,6 +124,12 @@ pub(crate) fn record_of(
             result: checked(&speeds.observations, &speeds.prediction),
         }),
     }
+}
+
+/// Time from the first to the last observation.
+fn length_s(observations: &[SpeedObservation]) -> f64 {
+    let ends = observations.first().zip(observations.last());
+    ends.map_or(0.0, |(first, last)| last.time_s - first.time_s)
 }
 
 /// Checks, before any work, that all outputs can be written.

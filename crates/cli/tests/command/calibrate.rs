@@ -286,9 +286,13 @@ fn four_rotors_check_no_clock() {
             "{}",
             run.stderr
         );
+        assert!(run.stderr.contains("000 rpm are heard; record one rotor"), "{}", run.stderr);
         let line = calibrated(&sound, &[said, &["--json"]].concat()).ends_with(3).json_lines().remove(0);
         assert_eq!((&line["status"], &line["passes"]), (&"several_rotors".into(), &serde_json::Value::Null));
     }
+    let half = ["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "10500"];
+    let half = hovertone(&half).ends_with(3).stderr;
+    assert!(half.contains(" rpm are heard, 2 times the known speed: check the number of blades"), "{half}");
     let slip = ["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "350"];
     let slip = hovertone(&slip).ends_with(3).stderr;
     assert!(

@@ -168,8 +168,7 @@ fn a_plan_tells_before_flying() {
     let heavier = plan("0.025", &["--latitude-deg", "-20.3", "--added-mass-kg", &added_kg]).ends_with(0).stdout;
     assert!(heavier.contains("These loads also test"), "{words}\n{heavier}");
     let unreachable = plan("0.005", &["--added-mass-kg", "0.1"]).ends_with(2).stderr;
-    let nearer =
-        "so near the vehicle that `hovertone speed` separates the rotors, and plan again with --rotors-separated";
+    let nearer = "so near the vehicle that `hovertone speed` separates the rotors or hears them as a group, and plan again with --rotors-separated";
     assert!(unreachable.contains("rotors not separated") && unreachable.contains(nearer), "{unreachable}");
     let apart = plan("0.01", &["--added-mass-kg", "0.1", "--rotors-separated", "--latitude-deg", "-20.3", "--json"])
         .ends_with(0)

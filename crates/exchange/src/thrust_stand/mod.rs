@@ -123,10 +123,11 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         })?;
     let groups_by = grouping_columns(&columns, &records);
     let reader = RowReader { csv: &csv, columns: &columns, groups_by, speed, force };
-    let mut rows: Vec<GroupedRow> = Vec::new();
+    let (mut rows, mut empty): (Vec<GroupedRow>, Vec<u64>) = (Vec::new(), Vec::new());
     for record in &records {
-        if let Some(row) = reader.row(record)? {
-            rows.push(GroupedRow { group: reader.group(record), row });
+        match reader.row(record)? {
+            Some(row) => rows.push(GroupedRow { group: reader.group(record), row }),
+            None => empty.push(line_of(record)),
         }
     }
     plausible::check(&rows, MeasuredColumns { speed, force })?;
@@ -134,6 +135,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let mut notes: Vec<TableNote> =
         unit_missing.map(|column| TableNote::UnitMissing { column: column.header.clone() }).collect();
     notes.extend(rivals(&csv, &columns, &records, [speed, force]));
+    notes.extend((!empty.is_empty()).then_some(TableNote::Empty { lines: empty }));
     turn_round(&mut rows, &mut notes);
     leave_out_resting(&mut rows, &mut notes);
     if rows.is_empty() {

@@ -3,6 +3,9 @@
 use super::AT_REST_SHARE;
 use std::fmt;
 
+/// Largest number of lines that a note lists.
+const LINES_LISTED_MAX: usize = 8;
+
 /// A note about columns that are not used, or about rows that were left out or turned round.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -28,6 +31,11 @@ pub enum TableNote {
         /// Line of the file, counted from 1.
         line: u64,
     },
+    /// Rows without a speed or a force.
+    Empty {
+        /// Lines of the file, counted from 1.
+        lines: Vec<u64>,
+    },
     /// Rows at rest.
     AtRest {
         /// Number of these rows.
@@ -49,7 +57,7 @@ impl TableNote {
                 "if hovertone should use this column, remove the other column"
             }
             Self::Rivals { .. } => "if hovertone should use one of these columns, remove the others",
-            Self::TurnedRound | Self::AgainstTheOthers { .. } | Self::AtRest { .. } => "",
+            Self::TurnedRound | Self::AgainstTheOthers { .. } | Self::Empty { .. } | Self::AtRest { .. } => "",
         }
     }
 }
@@ -71,6 +79,16 @@ impl fmt::Display for TableNote {
             ),
             Self::AgainstTheOthers { line } => {
                 write!(f, "line {line} is left out: its thrust is zero, or has another sign than the others")
+            }
+            Self::Empty { lines } if lines.len() > LINES_LISTED_MAX => {
+                write!(f, "rows left out because their speed or force is empty: {}", lines.len())
+            }
+            Self::Empty { lines } => {
+                let (noun, verb) = if lines.len() == 1 { ("line", "is") } else { ("lines", "are") };
+                let (their, numbers) =
+                    (if lines.len() == 1 { "its" } else { "their" }, lines.iter().map(u64::to_string));
+                let numbers = numbers.collect::<Vec<_>>().join(", ");
+                write!(f, "{noun} {numbers} {verb} left out: {their} speed or force is empty")
             }
             Self::AtRest { count, speed_rpm } => write!(
                 f,

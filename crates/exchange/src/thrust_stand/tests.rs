@@ -107,10 +107,18 @@ fn a_thrust_against_the_others_is_left_out_and_said() {
 }
 
 #[test]
+fn rows_with_an_empty_cell_are_left_out_and_said() {
+    let table = table_from_csv("rpm,thrust_n\n1000,0.1\n2000,\n3000,0.9\n").unwrap();
+    assert_eq!(thrusts(&table), [0.1, 0.9]);
+    assert_eq!(table.notes[0].to_string(), "line 3 is left out: its speed or force is empty");
+}
+
+#[test]
 fn semicolons_tabs_and_decimal_commas() {
     for text in ["rpm;thrust_n\n1000;0,1\n2000;0,4\n", "rpm\tthrust_n\n1000\t0.1\n2000\t0.4\n"] {
         assert_eq!(thrusts(&table_from_csv(text).unwrap()), [0.1, 0.4], "{text}");
     }
+    assert_eq!(thrusts(&table_from_csv("rpm;thrust_n\n1000;0,100\n2000;0,400\n").unwrap()), [0.1, 0.4]);
     // "3,610" is ambiguous: a thousands separator, or a decimal comma with three decimals
     let message = table_from_csv("rpm;thrust_n\n1,000;1\n").unwrap_err().to_string();
     assert!(message.contains("\"1,000\" is no number"), "{message}");

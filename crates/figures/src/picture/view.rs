@@ -16,7 +16,7 @@ pub struct PictureView {
     pub window_s: f64,
 }
 
-/// All frequencies up to a little above the highest followed harmonic, and each of these harmonics alone. Without a tone, all frequencies
+/// All frequencies up to a little above the highest followed harmonic, and each of these harmonics alone, of all rotors. Without a tone, all frequencies
 /// of the recording.
 pub fn views_of_recording(tone: Option<&RotorTone>, sample_rate_hz: f64, config: &PictureConfig) -> Vec<PictureView> {
     let nyquist_hz = sample_rate_hz / 2.0;
@@ -31,10 +31,15 @@ pub fn views_of_recording(tone: Option<&RotorTone>, sample_rate_hz: f64, config:
     };
     let zooms = bands.iter().map(|band| {
         let margin_hz = config.margin_share * band.width_hz();
+        // separated rotors may lie beside the band
+        let rotors = tone.map_or(&[][..], |tone| &tone.rotors);
+        let lines_hz = || rotors.iter().map(|rotor| rotor.speed.speed.tone_hz(band.order));
+        let (low_hz, high_hz) =
+            (lines_hz().fold(band.band_hz_low, f64::min), lines_hz().fold(band.band_hz_high, f64::max));
         PictureView {
             harmonic: Some(band.harmonic),
-            hz_low: (band.band_hz_low - margin_hz).max(0.0),
-            hz_high: (band.band_hz_high + margin_hz).min(nyquist_hz),
+            hz_low: (low_hz - margin_hz).max(0.0),
+            hz_high: (high_hz + margin_hz).min(nyquist_hz),
             window_s: config.zoom_window_s,
         }
     });

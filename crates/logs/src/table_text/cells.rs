@@ -107,14 +107,14 @@ pub(super) fn is_gap(cell: &[u8]) -> bool {
     cell.is_empty() || cell.eq_ignore_ascii_case(b"nan")
 }
 
-/// Whether the comma of a cell cannot separate thousands: "3,5", not "3,610".
+/// Whether the comma of a cell cannot separate thousands: "3,5" and "0,511", not "3,610".
 fn is_decimal_comma(cell: &[u8]) -> bool {
     let cell = cell.trim_ascii();
     let Some(comma) = cell.iter().position(|byte| *byte == b',') else { return false };
     let (whole, part) = (&cell[..comma], &cell[comma + 1..]);
     let whole = whole.strip_prefix(b"-").or(whole.strip_prefix(b"+")).unwrap_or(whole);
     let are_digits = |digits: &[u8]| !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
-    are_digits(whole) && are_digits(part) && (part.len() != 3 || whole.len() > 3)
+    are_digits(whole) && are_digits(part) && (part.len() != 3 || whole.len() > 3 || whole.starts_with(b"0"))
 }
 
 #[cfg(test)]
@@ -138,7 +138,9 @@ mod tests {
 
     #[test]
     fn a_comma_is_a_decimal_one_only_where_it_cannot_separate_thousands() {
-        for (cell, expected) in [("3,5", true), ("-0,25", true), ("3610,343", true), ("3,610", false), ("a,b", false)] {
+        for (cell, expected) in
+            [("3,5", true), ("-0,25", true), ("0,511", true), ("3610,343", true), ("3,610", false), ("a,b", false)]
+        {
             assert_eq!(is_decimal_comma(cell.as_bytes()), expected, "{cell}");
         }
     }

@@ -95,7 +95,7 @@ pub(crate) fn read<R: Read>(
     let Some(time) = columns.iter().find(|column| matches!(column.meaning, Some(LogColumn::Time { .. }))) else {
         return Err(LogError::NoTime { columns: names_of(&headers) });
     };
-    let signals: Vec<&Column> = columns.iter().filter(|column| column.is_signal()).collect();
+    let signals: Vec<&Column> = columns.iter().filter(|column| column.is_signal_beside(time)).collect();
     sink.table(TABLE.to_owned(), signals.iter().map(|column| column.signal.clone()).collect());
     let mut record = ByteRecord::new();
     let mut about_rotors = vec![f64::NAN; signals.len()];
@@ -145,9 +145,9 @@ fn line_of(record: &ByteRecord) -> u64 {
 }
 
 impl Column {
-    fn is_signal(&self) -> bool {
-        let is_time = matches!(self.meaning, Some(LogColumn::Time { .. } | LogColumn::TimeWithoutUnit));
-        !is_time && !self.header.is_empty()
+    /// Whether it has values beside the time that is used; a time of another kind ("settling time (s)") is one of them.
+    fn is_signal_beside(&self, time: &Self) -> bool {
+        self.index != time.index && !self.header.is_empty()
     }
 }
 
@@ -188,7 +188,9 @@ fn signal_of(name: &str, meaning: Option<LogColumn>) -> (TableSignal, f64) {
         Some(LogColumn::MotorCommand { motor }) => (with_role(SignalRole::Command(motor)), 1.0),
         Some(LogColumn::Torque { factor }) => (with_role(SignalRole::Torque), factor),
         Some(LogColumn::Rate { axis, factor }) => (with_role(SignalRole::BodyRate(axis)), factor),
-        Some(LogColumn::Time { factor }) => (TableSignal::plain(name.to_owned()), factor),
+        Some(LogColumn::Time { factor }) => {
+            (TableSignal { unit: "s".to_owned(), ..TableSignal::plain(name.to_owned()) }, factor)
+        }
         Some(LogColumn::TimeWithoutUnit) | None => {
             (TableSignal { unit: unit_of(name), ..TableSignal::plain(name.to_owned()) }, 1.0)
         }

@@ -80,15 +80,13 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
         let mach = PI * diameter_m * rev_s / config.sound_speed_m_s;
         reading.tip_mach = Some(mach);
         if mach > config.tip_mach_max {
-            against.push(format!("too fast: the blade tips would be faster than Mach {}", config.tip_mach_max));
+            against.push(format!("too fast (blade tips above Mach {})", config.tip_mach_max));
         }
         if let Some(thrust_coefficient) = known.hover_thrust_coefficient(rev_s, config.air_density_kg_m3) {
             reading.thrust_coefficient = Some(thrust_coefficient);
             let (low, high) = (config.thrust_coefficient_min, config.thrust_coefficient_max);
             if !(low..=high).contains(&thrust_coefficient) {
-                against.push(format!(
-                    "its thrust does not fit: propellers have a thrust coefficient C_T of {low} to {high}"
-                ));
+                against.push(format!("C_T is not between {low} and {high}, as of propellers"));
             }
         }
     }
