@@ -86,14 +86,14 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let weighed = scale.weigh(&hovers);
     if let Some(weighed) = &weighed {
         let without_band = if arguments.tone.band.is_some() { "leave --band out; if the message stays, " } else { "" };
-        let of_one = || constant_of_one(arguments.constant_n_s2, plan.config.rotors.count, weighed, &scale);
-        let refused = |error: WeighError| {
-            let hint = of_one().unwrap_or_else(|| format!("{without_band}{}", error.hint()));
-            Failure::usage(error.to_string(), hint)
+        let vehicle_kg = plan.scale.vehicle_mass_kg.map(|mass_kg| mass_kg.value).or(plan.model_kg);
+        let of_one = constant_of_one(arguments.constant_n_s2, plan.config.rotors.count, weighed, vehicle_kg);
+        let refused = |error: WeighError, hint: String| {
+            Failure::usage(error.to_string(), of_one.clone().unwrap_or_else(|| format!("{without_band}{hint}")))
         };
-        weighed.check().map_err(refused)?;
+        weighed.check().map_err(|error| refused(error, error.hint()))?;
         let of_model = plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg));
-        of_model.map_err(|error| Failure::usage(error.to_string(), CHECK_MODEL))?;
+        of_model.map_err(|error| refused(error, CHECK_MODEL.to_owned()))?;
     }
     let foreign = tone_of_constant.and_then(|heard| foreign_speed(&records, heard, &arguments.tone));
     let is_sound_doubtful =
@@ -121,10 +121,10 @@ fn constant_of_one(
     typed_n_s2: Option<f64>,
     rotor_count: u32,
     weighed: &WeighedHover,
-    scale: &AcousticScale,
+    vehicle_kg: Option<f64>,
 ) -> Option<String> {
     let (typed_n_s2, rotors) = (typed_n_s2.filter(|_| rotor_count > 1)?, f64::from(rotor_count));
-    let share = rotors * weighed.mass_kg.value / scale.vehicle_mass_kg?.value;
+    let share = rotors * weighed.mass_kg.value / vehicle_kg?;
     OF_ONE_ROTOR.contains(&share).then(|| {
         format!(
             "is {typed_n_s2:e} the constant of one rotor? --constant-n-s2 is that of the whole vehicle: for {rotor_count} such rotors give \

@@ -132,12 +132,13 @@ impl Identified {
         let experiment = &self.experiment;
         let heard = self.inputs.iter().filter(|input| input.record.speed().is_some()).count();
         format!(
-            "{}: {}, {}; {}; a speed was heard in {heard} of {}; {}\n",
+            "{}: {}, {}; {}, {}, a speed was heard in {}; {}\n",
             printable(&experiment.vehicle_name),
             counted(experiment.rotor_count as usize, "rotor"),
             tone_of_order(experiment.config.tone.order),
             counted(experiment.loads.len(), "load"),
             counted(self.inputs.len(), "recording"),
+            heard_in_words(heard, self.inputs.len()),
             self.warnings_counted(),
         )
     }
@@ -211,6 +212,16 @@ impl Identified {
     /// The warnings about the constant.
     pub fn warnings(&self) -> &[ThrustWarning] {
         self.reported().map_or(&[], |table| &table.warnings)
+    }
+}
+
+/// "each", "none", "3 of them".
+fn heard_in_words(heard: usize, recordings: usize) -> String {
+    match heard {
+        0 => "none".to_owned(),
+        1 if recordings == 1 => "it".to_owned(),
+        all if all == recordings => "each".to_owned(),
+        some => format!("{some} of them"),
     }
 }
 

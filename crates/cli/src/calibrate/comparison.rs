@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::order_words::{times, times_per_turn};
 use crate::vehicles::preset;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
-use hovertone_report::{fixed, printable, signed, significant, with_uncertainty};
+use hovertone_report::{fixed, printable, signed, with_uncertainty};
 use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Gear, Order, RotorSpeed};
 use serde_json::json;
 
@@ -15,6 +15,8 @@ const SECONDS_PER_MINUTE: f64 = 60.0;
 const ROTORS_SHARE: f64 = 0.25;
 /// A ratio of the heard and the known speed is a whole number if it is this near, as a share.
 const SLIP_SHARE: f64 = 0.1;
+/// A speed that nobody measured is told to this, rpm.
+const ROUNDED_RPM: f64 = 10.0;
 /// Millionths in a hundredth.
 const PPM_PER_PERCENT: f64 = 1e4;
 /// Largest error of a clock.
@@ -140,7 +142,7 @@ pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Opt
     if is_near(SECONDS_PER_MINUTE, ROTORS_SHARE) {
         return Some(format!(". {}", in_turns_per_second(rpm)));
     }
-    let about = significant(heard.rpm(), 3);
+    let about = ROUNDED_RPM * (heard.rpm() / ROUNDED_RPM).round();
     let of_known = |slip: f64| match slip {
         0.5 => "half of the known speed".to_owned(),
         slip => format!("{slip} times the known speed"),

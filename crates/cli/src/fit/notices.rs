@@ -22,10 +22,15 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
             | ThrustWarning::RowsDoNotFit { .. }
     );
     match warning {
-        ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => Notice::new(
-            warning.to_string(),
-            "correct the rows that do not fit, if there are any; if not, measure more rows; if you stated uncertainties, check them",
-        ),
+        ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
+            let too_large = match stated.is_empty() {
+                true => String::new(),
+                false => format!("; or {} is too large", stated.join(" or ")),
+            };
+            let hint =
+                format!("correct the rows that do not fit, if there are any; if not, measure more rows{too_large}");
+            Notice::new(warning.to_string(), hint)
+        }
         ThrustWarning::NarrowLoadRange(_) => Notice::new(
             warning.to_string(),
             "C_f is still valid near these forces; to test the law, measure a wider range of forces",

@@ -69,6 +69,7 @@ fn the_log_of_a_flight_names_rotors_checks_the_order_and_tells_the_motors() {
     for words in ["Speed check: sound against flight log", "passed", "motor 1", "time constant up"] {
         assert!(run.stdout.contains(words), "{words}: {}", run.stdout);
     }
+    assert!(run.stdout.contains("\nthe speeds in 1 log fit the sound\n"), "{}", run.stdout);
     for words in ["do not fit the sound", "is of the same flight", "was not compared"] {
         assert!(!run.stdout.contains(words) && !run.stderr.contains(words), "{words}: {}", run.stderr);
     }
@@ -109,6 +110,13 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
     assert!(run.stderr.contains(failed), "{}", run.stderr);
     assert!(run.stdout.contains("\nthe speeds in 1 log do not fit the sound\n"), "{}", run.stdout);
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains(failed));
+
+    // a log of another vehicle is said to be of no use
+    let motors: String = (1..=8).map(|motor| format!(",motor{motor}_pwm")).collect();
+    let rows = |time_s: i32| format!("{time_s}{}\n", format!(",{}", 1500 + 10 * time_s).repeat(8));
+    fs::write(folder.join("eight.csv"), format!("time_s{motors}\n{}", (0..12).map(rows).collect::<String>())).unwrap();
+    let run = hovertone(&["identify", &experiment(folder, &flown, &with_log(&flown.sound, "eight.csv"))]);
+    assert!(run.stderr.contains("eight.csv is not used: it has no speeds of these motors"), "{}", run.stderr);
 
     // without a log nothing of it is said
     let name = format!("\"flown/{}\"", flown.sound.file_name().unwrap().to_str().unwrap());

@@ -53,6 +53,10 @@ fn a_log_is_listed_for_people_and_for_programs() {
     assert_eq!((&speed["low"], &speed["high"]), (&10.0.into(), &12.0.into()));
     let other = written(folder.path(), "other.csv", "time_s,x_m\n0,1\n1,2\n");
     assert!(hovertone(&["log", &other]).ends_with(0).stdout.contains("no rotor speed in this log"));
+    // a time of another kind is a signal
+    let settling = written(folder.path(), "settling.csv", "time_s,settling time (s)\n0,0.1\n1,0.2\n");
+    let names = hovertone(&["log", &settling, "--signals"]).ends_with(0).stdout;
+    assert!(names.contains("table.settling time (s)  (s)"), "{names}");
 }
 
 #[test]

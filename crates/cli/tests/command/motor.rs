@@ -247,9 +247,18 @@ fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
     let dead_time_s = &hovertone(&on_clock).ends_with(0).json_lines()[0]["dead_time_s"]["value"];
     assert!((dead_time_s.as_f64().unwrap() - 0.035).abs() < 0.02, "{dead_time_s}");
     let shifted = ["motor", &wav, "--blades", "2", "--commands", &commands, "--offset", "2"];
-    let shifted = hovertone(&shifted).ends_with(0);
+    // what was given and is not used is missing
+    let shifted = hovertone(&shifted).ends_with(3);
     assert!(!shifted.stdout.contains("saturated"), "{}", shifted.stdout);
     assert!(shifted.stderr.contains("or give --offset 0.0"), "{}", shifted.stderr);
+    let other =
+        written(scratch.path(), "other.csv", "time_s,motor1_pwm\n0,1200\n1,1200\n2,1300\n3,1300\n4,1200\n5,1250\n");
+    let other = hovertone(&["motor", &wav, "--blades", "2", "--commands", &other]).ends_with(3);
+    assert!(
+        other.stderr.contains("other.csv are not used: they and the heard speeds do not change"),
+        "{}",
+        other.stderr
+    );
 }
 
 #[test]

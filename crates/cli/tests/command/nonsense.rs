@@ -285,7 +285,15 @@ fn a_weighed_mass_is_that_of_a_vehicle() {
     let ardrone = ["--vehicle", "ardrone"];
     refused(weigh("2.8", &ardrone), &["ten times the 413 g of the vehicle", "of the whole vehicle"]);
     // the constant of one rotor in place of four
-    refused(weigh("7.07e-6", &ardrone), &["payload weighs 10", "alone weighs 413 g", "of the whole vehicle"]);
+    refused(
+        weigh("7.07e-6", &ardrone),
+        &[
+            "payload weighs 10",
+            "alone weighs 413 g",
+            "constant of one rotor?",
+            "for 4 such rotors give --constant-n-s2 0.00002828;",
+        ],
+    );
     // without a ± of the constant the mass has none, and says so
     let arguments = weigh("2.83e-5", &ardrone);
     let words = hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0).stdout;

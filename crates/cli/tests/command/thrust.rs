@@ -153,6 +153,33 @@ fn a_log_of_a_stand_is_fitted_without_a_flood_of_warnings() {
 }
 
 #[test]
+fn a_row_that_fits_the_preferred_law_is_not_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("offset.csv");
+    fs::write(&table, "rad/s,thrust_n\n100,0.31\n200,0.62\n300,1.12\n400,1.83\n500,2.74\n600,3.85\n").unwrap();
+    let run = hovertone(&["fit", text(&table)]).ends_with(0);
+    assert!(
+        run.stdout.contains("6 table rows, thrust_n") && run.stdout.contains("F = F₀ + C ω² (preferred)"),
+        "{}",
+        run.stdout
+    );
+    assert!(!run.stderr.contains("left out"), "{}", run.stderr);
+    // a tenth of the speed is no offset
+    fs::write(&table, "rad/s,thrust_n\n20,0.62\n300,1.12\n400,1.83\n500,2.74\n600,3.85\n").unwrap();
+    assert!(hovertone(&["fit", text(&table)]).stderr.contains("left out"));
+}
+
+#[test]
+fn rows_that_contradict_each_other_are_no_complete_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("two.csv");
+    fs::write(&table, "rpm,thrust_n,thrust_std_n\n3000,0.511,0.003\n3000,0.6,0.003\n6000,2.3,0.003\n6000,2.05,0.003\n")
+        .unwrap();
+    let run = hovertone(&["fit", text(&table)]).ends_with(3);
+    assert!(run.stderr.contains("the rows do not fit each other"), "{}", run.stderr);
+}
+
+#[test]
 fn a_plan_tells_before_flying() {
     let plan = |wanted: &str, more: &[&str]| {
         let mut arguments = vec!["fit", "--plan", "--mass-kg", "0.413", "--wanted-share", wanted];

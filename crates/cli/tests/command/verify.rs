@@ -61,6 +61,14 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     refused(text(&figure), &["exists already"]);
     let wrong = hovertone(&["verify", text(&sound), text(&half), "--vehicle", vehicle]).ends_with(3);
     assert!(wrong.stdout.contains("failed: the heard speeds are 2.00 times the logged speeds"), "{}", wrong.stdout);
+    let in_rev_s = folder.path().join("rev_s.csv");
+    write_log(&flown, &in_rev_s, 10, 1.0 / 60.0);
+    let unit = hovertone(&["verify", text(&sound), text(&in_rev_s), "--vehicle", vehicle]).ends_with(3);
+    assert!(
+        unit.stdout.contains("times the logged speeds: the log seems to hold rev/s, but is read as rpm"),
+        "{}",
+        unit.stdout
+    );
 }
 
 /// Equal means are no pass where the clock is wrong, or where the log is of another flight.
