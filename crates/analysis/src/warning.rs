@@ -177,7 +177,7 @@ impl Warning {
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
-                "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several, place the microphone nearer and record \
+                "if fewer rotors turn, give their number, as in --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer and record \
                 without compression"
             }
             Self::RotorsNotApart { has_mean: false, .. } => {

@@ -126,10 +126,12 @@ fn example_of_columns(columns: &str) -> String {
     let command = format!("{} {}", typed_command(), column(time, "time_s"));
     match headers.iter().find(|header| **header != time && is_speed(header)) {
         Some(speed) => format!(
-            ". If \"{time}\" is the time in seconds and \"{speed}\" the speed of a rotor in rpm: {command} {}",
+            ". If \"{time}\" is the time in seconds (of milliseconds: time_ms in place of time_s) and \"{speed}\" the speed of a rotor in rpm: {command} {}",
             column(speed, "rotor1_rpm")
         ),
-        None => format!(". If \"{time}\" is the time in seconds: {command}"),
+        None => {
+            format!(". If \"{time}\" is the time in seconds (of milliseconds: time_ms in place of time_s): {command}")
+        }
     }
 }
 

@@ -14,8 +14,11 @@ use crate::text_file::{TextFormat, TextKind};
 use crate::vehicles::preset;
 use hovertone::speed::RotorsConfig;
 use hovertone_media::Samples;
-use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_table, track_csv};
+use hovertone_report::{Notice, SpeedRecord, condition_table, printable, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
+
+/// What the columns of the table mean.
+const FOOTNOTE: &str = "±: about 95 of 100 true values are within it; spread: change over time\n";
 
 const TRACK: TextKind = TextKind { content: "a track", format: TextFormat::Csv, example: "--track track.csv" };
 
@@ -41,6 +44,9 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         }
     } else {
         terminal.text(&speed_table(&records, terminal.fold_width()))?;
+        if records.iter().any(|record| record.speed().is_some()) {
+            terminal.text(FOOTNOTE)?;
+        }
         if let Some(table) = condition_table(&records, terminal.fold_width()) {
             terminal.text(&format!("\n{table}"))?;
         }
@@ -69,9 +75,14 @@ fn say_idle_mass(plan: &Plan, arguments: &SpeedArguments, terminal: &mut Termina
 /// Says that nobody told the number of the rotors that were separated. A warning says so where not all could be.
 fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], terminal: &mut Terminal) {
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
-    let count = records.iter().map(|record| record.rotors().len()).max().unwrap_or_default();
+    let heard = records.iter().max_by_key(|record| record.rotors().len());
+    let count = heard.map_or(0, |record| record.rotors().len());
+    let place = match heard {
+        Some(record) if records.len() > 1 => format!("in {}, ", printable(&record.file)),
+        _ => String::new(),
+    };
     if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
-        let what = format!("hovertone found {count} rotors by itself, because their number is not given");
+        let what = format!("{place}hovertone found {count} rotors by itself, because their number is not given");
         let hint = format!(
             "if your vehicle has {count} rotors, you need to do nothing; if not, give their number, as in --rotors 6, and --rotors 1 \
              where one runs alone"

@@ -67,7 +67,8 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let verification = verification_of(record, logged, offsets_s)
         .map_err(|reason| Failure::failed(reason.to_string(), reason.hint(), log))?;
     let passes = verification.passes();
-    if let Some(notice) = small_plus_minus(&verification) {
+    // the text says it in its last line
+    if let Some(notice) = small_plus_minus(&verification).filter(|_| arguments.json) {
         terminal.warning(&notice, "");
     }
     let told = VerificationRecord { file: record.file.clone(), log: log.display().to_string(), verification };

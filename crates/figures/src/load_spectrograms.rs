@@ -28,7 +28,8 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         return Ok(None);
     };
     let order = all().find_map(|joined| joined.trial.tone_order());
-    let levels_db = level_range_db(all().filter_map(|joined| joined.trial.whole()));
+    let lowest_hz = all().map(|joined| joined.trial.lowest_line_hz()).reduce(f64::min).unwrap_or(0.0);
+    let levels_db = level_range_db(all().filter_map(|joined| joined.trial.whole()), lowest_hz);
     let mut canvas = Canvas::new("figure-6-spectrograms", TOP + (loads.len() as i32 - 1) * PITCH + PANEL + BELOW);
     canvas.colour_bar(ColourMap::Viridis, levels_db)?;
     for (index, (load, joined)) in loads.iter().enumerate() {

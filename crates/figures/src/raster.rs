@@ -28,9 +28,15 @@ pub(crate) struct Raster {
     pub(crate) level_db_high: f64,
 }
 
-/// The levels of the darkest and the brightest colour: from a little above the noise floor to the loudest cell.
-pub(crate) fn level_range_db<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> Extent {
-    let mut levels: Vec<f32> = pictures.into_iter().flat_map(|picture| picture.level_db.iter().copied()).collect();
+/// The levels of the darkest and the brightest colour: from a little above the noise floor to the loudest cell above a frequency. Where that is the
+/// lowest line of a rotor, wind below it does not hide the rotor.
+pub(crate) fn level_range_db<'a>(pictures: impl IntoIterator<Item = &'a Picture>, above_hz: f64) -> Extent {
+    let of_picture = |picture: &'a Picture| {
+        let row_hz = (picture.hz_high - picture.hz_low) / picture.row_count as f64;
+        let first = ((above_hz - picture.hz_low) / row_hz).max(0.0) as usize;
+        picture.level_db.chunks(picture.row_count).flat_map(move |column| column.iter().skip(first).copied())
+    };
+    let mut levels: Vec<f32> = pictures.into_iter().flat_map(of_picture).collect();
     if levels.is_empty() {
         return Extent::new(-100.0, 0.0);
     }
@@ -53,7 +59,7 @@ pub struct PictureLevels {
 
 /// The levels of a picture, for a screen that colours them itself.
 pub fn levels_of_picture(picture: &Picture) -> PictureLevels {
-    let levels_db = level_range_db([picture]);
+    let levels_db = level_range_db([picture], 0.0);
     let cell = |&level_db: &f32| (levels_db.share_of(f64::from(level_db)).clamp(0.0, 1.0) * 255.0).round() as u8;
     PictureLevels {
         cells: picture.level_db.iter().map(cell).collect(),

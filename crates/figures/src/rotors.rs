@@ -48,7 +48,7 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
         title: format!("separated rotors, {}", harmonic_name(band.harmonic)),
     };
     canvas.panel(&panel)?;
-    let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Greys);
+    let raster = Raster::from_picture(picture, range_hz, level_range_db([picture], 0.0), ColourMap::Greys);
     canvas.picture(&panel, Extent::of_span(picture.span), &raster.at_most(2048, ROWS_MAX))?;
     for (index, rotor) in tone.rotors.iter().enumerate() {
         let name = format!("rotor {}", index + 1);

@@ -42,7 +42,7 @@ pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>,
     let has_rotors = trial.tone().is_some_and(|tone| !tone.rotors.is_empty());
     let heights = &HEIGHTS[..if zoom.is_some() { 2 } else { 1 }];
     let mut canvas = Canvas::new(name, TOP + heights.iter().sum::<i32>() + (heights.len() as i32 - 1) * PITCH + 120);
-    let levels_db = level_range_db([whole]);
+    let levels_db = level_range_db([whole], trial.lowest_line_hz());
     canvas.colour_bar(ColourMap::Viridis, levels_db)?;
     let place = |top: i32, height: i32| Place { left: 180, top, right: WIDTH - 180, bottom: top + height };
     draw_whole(&mut canvas, trial, whole, place(TOP, HEIGHTS[0]), levels_db)?;
@@ -191,7 +191,7 @@ fn draw_zoom(
             .map_or(String::new(), |_| format!("{}, with the {meaning}", harmonic_name(band.harmonic))),
     };
     canvas.panel(&panel)?;
-    let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Viridis);
+    let raster = Raster::from_picture(picture, range_hz, level_range_db([picture], 0.0), ColourMap::Viridis);
     canvas.picture(&panel, Extent::of_span(picture.span), &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
     let Some(tone) = trial.heard_tone() else { return Ok(()) };
     let lines = common_lines(trial, tone, band);

@@ -70,6 +70,11 @@ impl<'a> Trial<'a> {
         self.heard_tone().map_or(&[], |tone| &tone.bands)
     }
 
+    /// Lowest frequency of a line that the heard rotor may have: that of its shaft. 0 without a rotor.
+    pub(crate) fn lowest_line_hz(&self) -> f64 {
+        self.heard_bands().first().map_or(0.0, |band| band.band_hz_low / band.order.lines_per_turn())
+    }
+
     /// Order of the lowest followed harmonic over its number: the divisor of the right axes.
     pub(crate) fn tone_order(&self) -> Option<f64> {
         order_of_first(self.bands())

@@ -36,6 +36,9 @@ const HEIGHT_FRAMES: f64 = 12.0;
 /// A rotor is lost where its pattern stands no higher than this share of its height at the review. *Decision.*
 const HEIGHT_SHARE_MIN: f64 = 0.3;
 
+/// A change of the speed from frame to frame by more than so many steps is that of a motor: 3 %. *Decision.*
+const STEP_SHIFTS_MIN: usize = 60;
+
 /// The odd lines stand as high beside the pattern as at the review, or no lower than this share of it: at half of a new speed, only the line
 /// of its shaft is among them. *Decision.*
 const ODD_SHARE_MIN: f64 = 0.5;
@@ -126,6 +129,10 @@ impl Follower {
         stft.push(samples, |frame| {
             let seen = pattern.follow(frame.power);
             mean.push(seen.speed_rev_s);
+            // the heights before a step say nothing about the speed after it
+            if seen.is_step {
+                (*height, *odd_height) = (seen.height, seen.odd_height);
+            }
             *height += (seen.height - *height) / HEIGHT_FRAMES;
             *odd_height += (seen.odd_height - *odd_height) / HEIGHT_FRAMES;
             on_seen(frame.centre_s, seen);
@@ -168,6 +175,8 @@ struct Pattern {
     likeness: Vec<f64>,
     belief: Vec<f64>,
     next_belief: Vec<f64>,
+    /// The most probable shift in the last frame.
+    best: usize,
     /// Cost of a change by so many steps.
     change_nats: Vec<f64>,
 }
@@ -180,6 +189,8 @@ struct SeenPattern {
     height: f64,
     /// The odd lines of the pattern over the gaps between lines, in nats.
     odd_height: f64,
+    /// Whether the speed is far from that of the frame before.
+    is_step: bool,
 }
 
 impl Pattern {
@@ -194,6 +205,7 @@ impl Pattern {
             likeness: vec![0.0; SHIFTS],
             belief: vec![0.0; SHIFTS],
             next_belief: vec![0.0; SHIFTS],
+            best: HALF_SHIFTS,
             change_nats: (0..SHIFTS).map(change).collect(),
         }
     }
@@ -245,11 +257,14 @@ impl Pattern {
         let best = highest(&self.belief);
         let shift = best as f64 - HALF_SHIFTS as f64 + vertex(&self.likeness, best);
         let mean = self.likeness.iter().sum::<f64>() / SHIFTS as f64;
+        let is_step = best.abs_diff(self.best) > STEP_SHIFTS_MIN;
         let seen = SeenPattern {
             speed_rev_s: self.speed_rev_s(shift),
             height: self.likeness[best] - mean,
             odd_height: self.odd_height(best),
+            is_step,
         };
+        self.best = best;
         self.recentre(best as isize - HALF_SHIFTS as isize);
         seen
     }
@@ -280,6 +295,7 @@ impl Pattern {
             return;
         }
         self.middle_rev_s = self.speed_rev_s(shift as f64);
+        self.best = HALF_SHIFTS;
         let by = shift.unsigned_abs();
         if shift > 0 {
             self.belief.copy_within(by.., 0);

@@ -39,6 +39,8 @@ pub struct Listener {
     heard: Option<Box<HeardRotors>>,
     octave: Octave,
     reason: Option<NoTone>,
+    /// When the rotors that were followed were lost: the sound before is of other speeds.
+    lost_at_s: Option<f64>,
 }
 
 impl Listener {
@@ -65,6 +67,7 @@ impl Listener {
                 config.discovery.as_ref().is_some_and(Discovery::may_be_deceived),
             ),
             reason: None,
+            lost_at_s: None,
             config,
         })
     }
@@ -86,9 +89,16 @@ impl Listener {
                 self.samples_left = self.every_samples;
                 on_speed(self.live_speed());
                 self.meter = Meter::default();
+                if self.follower.is_some() && self.lost_at_s.is_none() && !self.is_following() {
+                    // the next review comes when there is enough sound since now
+                    let lost_at_s = self.recent.heard_s();
+                    (self.lost_at_s, self.reviewed_at_s) = (Some(lost_at_s), lost_at_s);
+                }
                 let after_s = match (self.is_following(), self.agreeing_reviews) {
                     (false, _) => self.config.search_s,
                     (true, SETTLED_REVIEWS..) => self.config.settled_review_s,
+                    // a little more sound may decide
+                    (true, _) if !self.octave.possible().is_empty() => self.config.search_s,
                     (true, _) => self.config.review_s,
                 };
                 if self.recent.heard_s() >= self.reviewed_at_s + after_s {
@@ -129,14 +139,24 @@ impl Listener {
         self.is_review_due
     }
 
-    /// Analyses the last seconds.
+    /// Analyses the last seconds. Where the rotors that were followed are lost, and that does not hear them again, the sound since then alone.
     ///
     /// # Errors
     /// A band above half the sample rate.
     pub fn review(&mut self) -> Result<(), Error> {
         let now_s = self.recent.heard_s();
         (self.reviewed_at_s, self.is_review_due) = (now_s, false);
-        let mut sound = self.recent.sound();
+        let sound = self.recent.sound();
+        self.review_sound(sound)?;
+        let LiveConfig { search_s, window_s, .. } = self.config;
+        let is_recent = |lost_at_s: &f64| now_s >= lost_at_s + search_s && now_s < lost_at_s + window_s;
+        match self.lost_at_s.filter(is_recent) {
+            Some(lost_at_s) if !self.is_following() => self.review_sound(self.recent.sound_since(lost_at_s)),
+            _ => Ok(()),
+        }
+    }
+
+    fn review_sound(&mut self, mut sound: Signal) -> Result<(), Error> {
         match review(&mut sound, &self.config)? {
             Reviewed::Heard(heard) => {
                 let followed = if self.is_following() { self.follower.as_mut().and_then(Follower::now) } else { None };
@@ -166,6 +186,9 @@ impl Listener {
         // a hover without a frame in its track cannot be followed
         if follower.is_some() {
             (self.follower, self.heard, self.reason) = (follower, Some(heard), None);
+        }
+        if self.is_following() {
+            self.lost_at_s = None;
         }
     }
 

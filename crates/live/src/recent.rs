@@ -1,6 +1,6 @@
 //! The last seconds of the sound, in memory of a fixed size.
 
-use hovertone_signal::Signal;
+use hovertone_signal::{Signal, SignalSource};
 
 /// The last audio samples.
 pub(crate) struct Recent {
@@ -34,6 +34,15 @@ impl Recent {
         self.heard as f64 / self.sample_rate_hz
     }
 
+    /// The sound of the last seconds from a time on, on the clock of all sound.
+    pub(crate) fn sound_since(&self, time_s: f64) -> Signal {
+        let whole = self.sound();
+        let first = ((time_s - whole.start_s()) * self.sample_rate_hz).round().max(0.0) as usize;
+        let samples = whole.samples().get(first..).unwrap_or_default().to_vec();
+        let start_s = whole.start_s() + first as f64 / self.sample_rate_hz;
+        Signal::new(samples, self.sample_rate_hz).with_start_s(start_s)
+    }
+
     /// The sound of the last seconds, on the clock of all sound.
     pub(crate) fn sound(&self) -> Signal {
         let count = usize::try_from(self.heard).map_or(self.samples.len(), |heard| heard.min(self.samples.len()));
@@ -48,7 +57,6 @@ impl Recent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hovertone_signal::SignalSource;
 
     #[test]
     fn the_last_seconds_stay_in_the_order_of_time() {
@@ -60,6 +68,8 @@ mod tests {
                 let heard = at * block + part.len();
                 let sound = recent.sound();
                 assert_eq!(sound.samples(), &all[heard.saturating_sub(10)..heard], "blocks of {block}");
+                let since = recent.sound_since(recent.heard_s() - 0.5);
+                assert_eq!(since.samples(), &all[heard.saturating_sub(5)..heard], "blocks of {block}");
                 let start_s = heard.saturating_sub(10) as f64 / 10.0;
                 assert!(
                     (sound.start_s() - start_s).abs() < 1e-12 && (recent.heard_s() - heard as f64 / 10.0).abs() < 1e-12

@@ -97,6 +97,18 @@ fn a_step_to_nearly_twice_the_speed_is_not_told_as_half_of_it() {
         let step_s = 6.03;
         let rotor = Rotor::new(|time_s| if time_s < step_s { before } else { after }, lines());
         let speeds = live_speeds(&sound(&[rotor], 14.0, 10.0, seed as u64), 4800);
+        // a rotor that is lost is heard again once there are two seconds of its new speed
+        let is_back = |speed: &LiveSpeed| {
+            speed.time_s > step_s && speed.speed_rev_s.is_some_and(|it| (it / after - 1.0).abs() < 0.02)
+        };
+        let back_s = speeds.iter().find(|speed| is_back(speed)).map(|speed| speed.time_s);
+        assert!(back_s.is_some_and(|back_s| back_s < step_s + 3.0), "{before} to {after}: {back_s:?}");
+        // in the step, a speed is on its way, and never beyond both
+        let between = 0.98 * f64::min(before, after)..1.02 * f64::max(before, after);
+        let in_step = speeds.iter().filter(|speed| (step_s..step_s + 0.6).contains(&speed.time_s));
+        for speed_rev_s in in_step.filter_map(|speed| speed.speed_rev_s) {
+            assert!(between.contains(&speed_rev_s), "{before} to {after}: {speed_rev_s}");
+        }
         for speed in speeds.iter().filter(|speed| speed.time_s > step_s + 0.6) {
             let share = speed.speed_rev_s.map_or(0.0, |speed_rev_s| speed_rev_s / after - 1.0);
             assert!(share.abs() < 0.02, "{before} to {after} at {} s: {share}", speed.time_s);

@@ -143,7 +143,7 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
         load_words: load_words(identification)?,
         version: VERSION,
         words: Words::new(identification),
-        answer: reported.and_then(Answer::new),
+        answer: reported.and_then(|table| Answer::new(table, identification.partly_separated_count())),
         warnings: Warnings::new(reported, inputs, &names, &folded),
         constants: reported.map(constants_in_units).unwrap_or_default(),
         methods: method_views(report),

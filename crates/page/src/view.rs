@@ -138,11 +138,11 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    pub(crate) fn new(table: &ThrustTable) -> Option<Self> {
+    pub(crate) fn new(table: &ThrustTable, partly_separated: usize) -> Option<Self> {
         let constant = table.thrust_constant_total_n_s2?;
         let share = constant.std_uncertainty.map(|std| COVERAGE_FACTOR * std / constant.value);
         Some(Self {
-            method: rotors_heard_text(table.rotors_heard).unwrap_or_else(|| table.title().to_owned()),
+            method: rotors_heard_text(table.rotors_heard, partly_separated).unwrap_or_else(|| table.title().to_owned()),
             total: Number::new(constant),
             coverage: share.map(|_| COVERAGE_FACTOR),
             expanded_percent: share.map(|share| format!("{:.2}", 100.0 * share)),

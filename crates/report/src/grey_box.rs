@@ -16,6 +16,8 @@ use hovertone_vehicle::{Axis, Estimate, RotorSpeed, in_list};
 
 const MS_PER_S: f64 = 1e3;
 const PERCENT: f64 = 100.0;
+/// Share of the change of the speeds which the model must not leave unexplained.
+const UNEXPLAINED_SHARE: f64 = 0.3;
 /// Shortest flight to which the tests of the ± apply: they flew a minute.
 const TESTED_S: f64 = 50.0;
 
@@ -64,8 +66,15 @@ impl GreyBoxRecord {
 
     /// Whether something speaks against the model, so that its numbers may be wrong by more than their ±.
     pub fn is_doubtful(&self) -> bool {
-        let has_other = self.better.is_some() || self.other_hover.is_some();
+        let has_other = self.better.is_some() || self.other_hover.is_some() || self.unexplained().is_some();
         has_other || self.are_names_doubtful() || !self.axes_of_negative_gains().is_empty()
+    }
+
+    /// How far the predicted speeds are from those of the fitted flight, where the model leaves much of their change unexplained.
+    fn unexplained(&self) -> Option<&Checked> {
+        self.fitted.as_ref().filter(|fitted| {
+            PERCENT * fitted.change_share >= PERCENT_MIN && fitted.rms_share > UNEXPLAINED_SHARE * fitted.change_share
+        })
     }
 
     /// The loops whose command answers an error in the wrong direction.
@@ -96,9 +105,9 @@ pub fn grey_box_text(record: &GreyBoxRecord, width: Option<usize>) -> String {
     let source = record.recording.as_deref().map_or(String::new(), |recording| format!("{}, ", printable(recording)));
     let mut text = format!("{source}{}\n", printable(&record.log));
     text += &format!(
-        "{}, {}, from {} speeds of the rotors\n",
+        "{}, fitted at {} to the {} speeds of the rotors\n",
         record.vehicle,
-        counted(record.fit.observations, "observation"),
+        counted(record.fit.observations, "moment"),
         if record.are_speeds_logged { "logged" } else { "heard" }
     );
     for titled in grey_box_tables(record) {
@@ -160,7 +169,8 @@ fn negative_delay(record: &GreyBoxRecord) -> Option<String> {
     };
     let delay = [Parameter::CommandDelay, Parameter::MeasuredDelay].into_iter().find(is_negative)?;
     Some(format!(
-        "{} is negative: the clock of the log is late there, by up to the time between two log rows, or the model does not fit",
+        "{} is negative, which no delay is: the log knows the time of a command only to one row. If the delay is longer than the time between two \
+        log rows, the model does not fit",
         delay.in_words()
     ))
 }
@@ -185,10 +195,21 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
             "place the microphone nearer to the vehicle, or use a log that has the speeds of the rotors",
         )
     });
+    let unexplained = record.unexplained().map(|fitted| {
+        let what = format!(
+            "the model explains too little of this flight: the predicted speeds differ from the true ones by {} % (rms), and the speeds \
+            themselves change by {} % (rms)",
+            significant(PERCENT * fitted.rms_share, 2),
+            significant(PERCENT * fitted.change_share, 2)
+        );
+        let hint = "log the command and the measured value of each loop that was flown; the tables show the loops that are left out with –";
+        Notice::new(what, hint)
+    });
     hover
         .into_iter()
         .chain(names)
         .chain(gains)
+        .chain(unexplained)
         .chain(better.map(|better| Notice::new(better.to_string(), better.hint())))
         .collect()
 }

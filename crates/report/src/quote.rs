@@ -95,10 +95,13 @@ pub(crate) fn quoted(constant: Estimate) -> String {
     format!("({digits}) {}", unit.unit(CONSTANT_UNIT))
 }
 
-/// "rotors separated in 9 recordings, heard as a group in 6"; `None` where one tone is used for all.
-pub fn rotors_heard_text(counts: RotorsHeardCounts) -> Option<String> {
+/// "rotors separated in 9 recordings, heard as a group in 6"; `None` where one tone is used for all. In `partly` of the recordings with separated
+/// rotors, some could not be separated.
+pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<String> {
+    let partly = partly.min(counts.separated);
     let parts = [
-        (counts.separated, "separated"),
+        (counts.separated - partly, "separated"),
+        (partly, "separated, but not all of them,"),
         (counts.group, "heard as a group"),
         (counts.one_tone, "with one tone for all"),
     ];

@@ -4,7 +4,7 @@ use crate::flight_log::{FlightLogLine, FlightLogRecord};
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::version::VERSION;
-use hovertone_analysis::{Hover, Method, RotorsHeard, RotorsHeardCounts, Verification};
+use hovertone_analysis::{Hover, Method, RotorsHeard, RotorsHeardCounts, Verification, Warning};
 use hovertone_thrust::{
     COVERAGE_FACTOR, Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap,
     UncertaintyBudget, VehicleModel,
@@ -72,6 +72,13 @@ impl Identification<'_> {
     /// Number of logs that confirm the order and the clock of their recordings.
     pub fn passed_check_count(&self) -> usize {
         self.logs().filter(|log| log.verification.as_ref().is_some_and(Verification::passes)).count()
+    }
+
+    /// Number of recordings in which some rotors are separated, but not all.
+    pub fn partly_separated_count(&self) -> usize {
+        let is_partial = |warning: &Warning| matches!(warning, Warning::RotorsNotApart { resolved: 1.., .. });
+        let analyses = self.inputs.iter().filter_map(|input| input.record.analysis());
+        analyses.filter(|analysis| analysis.warnings.iter().any(is_partial)).count()
     }
 
     fn logs(&self) -> impl Iterator<Item = &FlightLogRecord> {

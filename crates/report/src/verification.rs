@@ -9,10 +9,13 @@ use crate::version::VERSION;
 use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, Verification, percent_in_words};
 use serde::Serialize;
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 /// Millionths of a share.
 pub(crate) const PPM: f64 = 1e6;
 
+/// Pole pairs of the motors of multirotors.
+const POLE_PAIRS: RangeInclusive<f64> = 5.0..=14.0;
 /// A ratio of speeds is that of two units if it is this near, as a share.
 const UNIT_SHARE: f64 = 0.02;
 
@@ -102,7 +105,8 @@ fn verdict_in_words(found: &Verification) -> String {
     }
     let percent = percent_of(found);
     // order and clock are judged apart from the ±
-    let small = small_plus_minus(found).map_or(String::new(), |notice| format!("\n±: not passed; {}", notice.text));
+    let small = small_plus_minus(found);
+    let small = small.map_or(String::new(), |Notice { text, hint, .. }| format!("\n±: not passed; {text}; {hint}"));
     format!(
         "passed: the number of blades (or the gear) and the clock are right; the mean of the heard speeds differs \
         from the log by {percent} %{small}"
@@ -150,6 +154,13 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
             "check the number of blades (or the gear); check the number of pole pairs in the \
             ESC's settings; check that the log is of this flight",
         )),
+        None if let Some(pairs) = pole_pairs(found.speed_ratio) => Some(Notice::new(
+            format!(
+                "the logged speeds are {} times the heard speeds: they seem to be electrical speeds of motors with {pairs} pole pairs",
+                significant(1.0 / found.speed_ratio, 3)
+            ),
+            "divide the logged speeds by the number of pole pairs, or set it in the ESC; check that the log is of this flight",
+        )),
         None if let Some(units) = units_in_words(found.speed_ratio) => Some(Notice::new(
             format!("the heard speeds are {} times the logged speeds: {units}", significant(found.speed_ratio, 3)),
             "check the unit of the speeds in the log",
@@ -160,6 +171,13 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
             the log is of this flight",
         )),
     }
+}
+
+/// The number of pole pairs of motors that multiplies the speeds in a log.
+fn pole_pairs(speed_ratio: f64) -> Option<u32> {
+    let pairs = (1.0 / speed_ratio).round();
+    let is_near = (speed_ratio * pairs - 1.0).abs() < UNIT_SHARE;
+    (is_near && POLE_PAIRS.contains(&pairs)).then_some(pairs as u32)
 }
 
 /// Which unit of the log explains a ratio of heard and logged speeds: its header says another unit than its numbers have.

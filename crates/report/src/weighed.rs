@@ -1,7 +1,7 @@
 //! The mass of a hovering vehicle from its sound.
 
 use crate::notice::Notice;
-use crate::number::{rounded, significant, with_uncertainty};
+use crate::number::{expanded, rounded, significant, with_uncertainty};
 use crate::recording::SpeedRecord;
 use crate::thrust::WITHOUT_FLIGHTS;
 use crate::version::VERSION;
@@ -87,7 +87,12 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
         grams(weighed.mass_kg)
     );
     text += &match weighed.payload_kg {
-        Some(payload_kg) => format!("payload: {}\n", grams(payload_kg)),
+        Some(payload_kg) => {
+            let is_none =
+                expanded(payload_kg.std_uncertainty).is_some_and(|expanded| expanded > payload_kg.value.abs());
+            let or_none = if is_none { "; there may be no payload, because the ± is larger" } else { "" };
+            format!("payload: {}{or_none}\n", grams(payload_kg))
+        }
         None => "payload: not known, because the mass of the vehicle alone is not given (give it with --mass-kg)\n"
             .to_owned(),
     };

@@ -1,7 +1,7 @@
 //! An experiment whose recordings were heard: the fits of its loads, and what is said of them.
 
 use hovertone::experiment::Experiment;
-use hovertone::speed::{Method, SpeedEstimate, Warning};
+use hovertone::speed::{Method, SpeedEstimate};
 use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, ThrustWarning, TrialSpeeds, thrust_from_loads};
 use hovertone_page::names_of;
 use hovertone_report::{
@@ -170,20 +170,13 @@ impl Identified {
     pub fn quote(&self) -> String {
         match self.reported().and_then(|table| Some((table, quoted_constants(table)?))) {
             Some((table, constants)) => {
-                let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| heard + "\n");
-                let heard = match self.partly_separated_count() {
-                    0 => heard,
-                    count if table.rotors_heard.separated > 0 => {
-                        heard.trim_end().to_owned()
-                            + &format!("; in {} not all rotors could be separated\n", counted(count, "recording"))
-                    }
-                    _ => heard,
-                };
+                let identification = self.identification();
+                let heard = rotors_heard_text(table.rotors_heard, identification.partly_separated_count());
+                let heard = heard.map_or(String::new(), |heard| heard + "\n");
                 let in_logs = |count: usize, verb: &str| match count {
                     0 => String::new(),
                     _ => format!("the speeds in {} {verb} the sound\n", counted(count, "log")),
                 };
-                let identification = self.identification();
                 let of_logs = in_logs(identification.failed_check_count(), "do not fit")
                     + &in_logs(identification.passed_check_count(), "fit");
                 let verdict = format!("verdict: {}", printable(Verdict::of(table).words()));
@@ -195,13 +188,6 @@ impl Identified {
             }
             None => "C_f: none, since no recording has a speed\nverdict: nothing is identified\n".to_owned(),
         }
-    }
-
-    /// Number of recordings in which some rotors are separated, but not all.
-    fn partly_separated_count(&self) -> usize {
-        let is_partial = |warning: &Warning| matches!(warning, Warning::RotorsNotApart { resolved: 1.., .. });
-        let has = |record: &&SpeedRecord| record.analysis().is_some_and(|it| it.warnings.iter().any(is_partial));
-        self.records().into_iter().filter(has).count()
     }
 
     /// The records of all recordings.

@@ -2,7 +2,7 @@
 
 use super::tail::covering_stds;
 use super::{Change, Drift, FALSE_ALARM_CHANCE};
-use hovertone_report::{Column, TextTable, VERSION, counted, printable, table_text};
+use hovertone_report::{Column, TextTable, VERSION, counted, fixed, printable, signed, table_text};
 use serde_json::json;
 use std::collections::BTreeSet;
 
@@ -73,7 +73,7 @@ fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
         false => {
-            "only the mean of all rotors is compared: in at least one of the archives, no recording has separated rotors\n"
+            "the means of all rotors are compared (of one rotor that ran alone, its speed): at least one of the archives has no single rotors\n"
         }
     }
 }
@@ -128,12 +128,18 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
         cells.extend(cells_of(&row.change));
         table.push(cells);
     }
+    let disagree = match drift.rotors.iter().any(|row| row.change.is_rotor_known && !row.change.has_changed) {
+        true => {
+            "recordings have changed by themselves, but they do not agree on one change: the list says more than the mean\n"
+        }
+        false => "",
+    };
     let more = match changed.len().saturating_sub(RECORDINGS_MAX) {
         0 => String::new(),
         more => format!("and {more} more changes; --json lists all\n"),
     };
     format!(
-        "\nrecordings whose speed has changed, largest change first\n{}{more}{not_known}",
+        "{disagree}\nrecordings whose speed has changed, largest change first\n{}{more}{not_known}",
         table_text(&table, width)
     )
 }
@@ -155,14 +161,16 @@ fn cells_of(change: &Change) -> Vec<String> {
     if !change.is_rotor_known {
         return [NOT_TOLD, NOT_TOLD, NOT_TOLD, "cannot tell which rotor"].map(str::to_owned).to_vec();
     }
-    let in_percent = |share: f64| share * 100.0;
+    let expanded = 100.0 * covering_stds(change.degrees_of_freedom) * change.std_uncertainty_share;
+    // two digits of the ±, of which the last has a meaning
+    let decimals = if expanded > 0.0 { (1.0 - expanded.log10().floor()).clamp(0.0, 4.0) as usize } else { 4 };
     let chance = match change.p_value_holm {
         small if small < 1e-4 => "< 0.0001".to_owned(),
         chance => format!("{chance:.4}"),
     };
     vec![
-        format!("{:+.3}", in_percent(change.change_share)),
-        format!("{:.3}", in_percent(covering_stds(change.degrees_of_freedom) * change.std_uncertainty_share)),
+        signed(100.0 * change.change_share, decimals),
+        fixed(expanded, decimals),
         chance,
         if change.has_changed { "has changed" } else { "no change seen" }.to_owned(),
     ]

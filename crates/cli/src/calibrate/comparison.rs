@@ -305,7 +305,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let decimals = correction_decimals(check.expanded_ppm());
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         format!(
-            "correction of the clock: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
+            "correction of the clock, if the known number is right to its ±: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
              [recorder]\n  clock_correction_ppm = {ppm}\n  \
              clock_ppm = {}  # error that may remain: clocks change with temperature\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)

@@ -71,19 +71,19 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
 const TRUTH_TITLE: &str = "Compared with the simulated truth";
 
 const FOOTNOTE: &str = "
-Maximum trace and Gaussian approximation are the methods of the paper: the strongest frequency of each
-short piece of sound, and the middle of a Gaussian curve that is fitted around it.
+Maximum trace and Gaussian approximation are the methods of the paper.
 The columns \"paper\" have the numbers of the paper, in rpm, in rad/s, and in 1e-5 N s² for the whole
 vehicle. For the big hull, the paper gives 462 g but calculated with 472 g, so its C_f is larger there.
 The simulation flies 462 g. With 462 g, the paper's speeds give 2.8291 (table 1) and 2.8260 (table 2).
 ";
 
 fn title_beside_paper(table: &ThrustTable) -> String {
-    let number = match table.method {
-        Method::Gaussian => 2,
-        _ => 1,
+    let (number, how) = match table.method {
+        Method::Gaussian => (2, " (the middle of a Gaussian curve in each short piece of sound)"),
+        Method::MaximumTrace => (1, " (the strongest frequency of each short piece of sound)"),
+        _ => (1, ""),
     };
-    format!("{}, beside the paper's table {number}", table.title())
+    format!("{}{how}, beside the paper's table {number}", table.title())
 }
 
 fn printed_rows(table: &ThrustTable) -> Vec<PrintedRow> {

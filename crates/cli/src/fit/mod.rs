@@ -18,7 +18,7 @@ use hovertone::thrust::{
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json};
 use hovertone_vehicle::{Estimate, RotorSpeed, check_tips, number_in_words};
-use notices::{far_off_notice, notice_of, rotors_notice, too_large_notice, too_strong_notice};
+use notices::{WorstRow, far_off_notice, notice_of, rotors_notice, too_large_notice, too_strong_notice};
 use planned::plan_campaign;
 use std::path::Path;
 
@@ -164,6 +164,7 @@ fn fitted_table(
         .or_else(|| too_large_notice(per_rotor))
         .or_else(|| too_strong_notice(group, per_rotor, plan.given_rotors.is_some()))
         .filter(|_| coefficients.is_none());
+    let worst = WorstRow::of(&points, &fit);
     let std_columns = if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] };
     let of_table = table.notes.iter().map(|note| Notice::new(note.to_string(), note.hint()));
     let notes = rotors_notice(table, is_weighed, plan).into_iter().chain(of_table);
@@ -182,10 +183,10 @@ fn fitted_table(
         figure_of_merit,
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
         forbids_use: warnings.iter().any(ThrustWarning::forbids_use),
-        is_incomplete: warnings.iter().any(ThrustWarning::makes_incomplete),
+        is_incomplete: too_strong.is_some() || warnings.iter().any(ThrustWarning::makes_incomplete),
         notices: notes
             .chain(too_strong)
-            .chain(warnings.iter().map(|warning| notice_of(warning, std_columns)))
+            .chain(warnings.iter().map(|warning| notice_of(warning, std_columns, worst.as_ref())))
             .collect(),
         fit,
     })

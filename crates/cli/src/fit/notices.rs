@@ -1,9 +1,11 @@
 //! Notices about a fitted table: what was done with its columns, and numbers that no propeller has.
 
 use super::Plan;
-use hovertone::thrust::{LoadRange, ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach};
+use hovertone::thrust::{
+    ForcePoint, LoadRange, SquareLawFit, ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach,
+};
 use hovertone_exchange::{StandGroup, StandTable};
-use hovertone_report::{Notice, fixed, significant};
+use hovertone_report::{Notice, fixed, signed, significant};
 use hovertone_vehicle::{AIR_KG_M3, Estimate, RotorSpeed, THRUST_COEFFICIENT, TIP_MACH_MAX};
 
 /// The air changes C_T by less: thin air on the highest mountains has a third of the density at sea level.
@@ -13,8 +15,25 @@ const DIAMETER_M_MAX: f64 = 2.0;
 /// A Mach number above this has an exponent.
 const MACH_WITH_DECIMALS_MAX: f64 = 1e6;
 
+/// The row whose force differs most from that of the square law, and by which share.
+pub(super) struct WorstRow<'a> {
+    name: &'a str,
+    share: f64,
+}
+
+impl<'a> WorstRow<'a> {
+    /// Of the rows that the fit uses.
+    pub(super) fn of(points: &'a [ForcePoint], fit: &SquareLawFit) -> Option<Self> {
+        let constant = fit.thrust_constant_n_s2.value;
+        let share = |point: &ForcePoint| constant * point.speed_square_rad2_s2 / point.force_n - 1.0;
+        let used = points.iter().zip(&fit.points).filter(|(_, verdict)| !verdict.is_gross).map(|(point, _)| point);
+        let rows = used.map(|point| Self { name: &point.name, share: share(point) });
+        rows.max_by(|a, b| a.share.abs().total_cmp(&b.share.abs()))
+    }
+}
+
 /// A warning about the fit. Where uncertainties are stated, they too may be why rows do not fit.
-pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
+pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String], worst: Option<&WorstRow<'_>>) -> Notice {
     let is_of_rows = matches!(
         warning,
         ThrustWarning::LoadDoesNotFit { is_row: true, .. }
@@ -34,6 +53,14 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String]) -> Notice {
         ThrustWarning::NarrowLoadRange(_) => Notice::new(
             warning.to_string(),
             "C_f is still valid near these forces; to test the law, measure a wider range of forces",
+        ),
+        ThrustWarning::OtherLawPreferred { .. } if let Some(WorstRow { name, share }) = worst => Notice::new(
+            warning.to_string(),
+            format!(
+                "simulators use F = C_f ω², which is {} % off at {name}; use C_f only near the measured speeds, if this is near enough; \
+                 else use the preferred law",
+                signed(100.0 * share, 1)
+            ),
         ),
         // a table has no recordings, and no tone
         ThrustWarning::ConstantsSplit => Notice::new(
@@ -94,10 +121,15 @@ pub(super) fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_coun
     let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
     let mach = if tip_mach < MACH_WITH_DECIMALS_MAX { fixed(tip_mach, 2) } else { format!("{tip_mach:.0e}") };
     let text = format!(
-        "no propeller has this thrust at this speed: the tips of its blades would move at Mach {mach} (times the speed of sound) or faster"
+        "no propeller has this thrust at this speed: one that is large enough would have blade tips at Mach {mach} (times the speed of sound) or faster"
     );
-    let rotors = if is_count_given { "--rotors" } else { "give the number of rotors with --rotors" };
-    let hint = format!("check the units of the forces and of the speeds, and {rotors}");
+    let rotors = match is_count_given {
+        true => "and --rotors",
+        false => {
+            "such as grams under a header of kilograms; if several rotors made the force, give their number with --rotors"
+        }
+    };
+    let hint = format!("check the units of the forces and of the speeds, {rotors}");
     (tip_mach > TIP_MACH_MAX).then(|| Notice::new(text, hint))
 }
 
@@ -109,14 +141,14 @@ mod tests {
     fn stated_uncertainties_are_named_where_rows_do_not_fit() {
         let columns = ["thrust_std_g".to_owned()];
         let of_rows = ThrustWarning::RowsDoNotFit { names: vec!["line 3".to_owned()], are_left_out: false };
-        assert!(notice_of(&of_rows, &columns).hint.ends_with("; or thrust_std_g is too small"));
-        assert_eq!(notice_of(&of_rows, &[]), Notice::from(&of_rows));
-        assert_eq!(notice_of(&ThrustWarning::SingleLoad, &columns), Notice::from(&ThrustWarning::SingleLoad));
+        assert!(notice_of(&of_rows, &columns, None).hint.ends_with("; or thrust_std_g is too small"));
+        assert_eq!(notice_of(&of_rows, &[], None), Notice::from(&of_rows));
+        assert_eq!(notice_of(&ThrustWarning::SingleLoad, &columns, None), Notice::from(&ThrustWarning::SingleLoad));
     }
 
     #[test]
     fn a_table_is_not_asked_for_a_tone_or_a_flight() {
-        let split = notice_of(&ThrustWarning::ConstantsSplit, &[]).hint;
+        let split = notice_of(&ThrustWarning::ConstantsSplit, &[], None).hint;
         assert!(split.starts_with("do not use this constant: check the speeds"), "{split}");
         assert!(!split.contains("tone") && !split.contains("load"), "{split}");
     }

@@ -176,9 +176,19 @@ fn gear_of(answer: Option<&str>) -> Result<Option<Gear>, String> {
     Ok(Some(gear))
 }
 
+/// A larger diameter needs a unit: propellers of multirotors are smaller, in metres.
+const DIAMETER_ALONE_M_MAX: f64 = 2.0;
+
 /// A length with its unit; without one in metres.
 fn diameter_m(answer: Option<&str>) -> Result<Option<f64>, String> {
     let Some(typed) = answer else { return Ok(None) };
+    if let Ok(metres) = typed.trim().parse::<f64>()
+        && metres > DIAMETER_ALONE_M_MAX
+    {
+        return Err(format!(
+            "{typed} without a unit is {typed} m: did you mean {typed}in or {typed}cm? If it is that large, write {typed}m."
+        ));
+    }
     match length_m(typed).ok().filter(|length_m| PROPELLER_DIAMETER_M.contains(length_m)) {
         Some(length_m) => Ok(Some(length_m)),
         None => Err("A length from 10 mm to 10 m is needed, such as 200mm, 8in or 0.2 (in m).".to_owned()),
@@ -236,13 +246,21 @@ mod tests {
     #[test]
     fn another_vehicle_is_described_and_slips_are_asked_again() {
         let folder = folder_with(&["hover.mov"]);
-        let answers = "ardron\n\ntwo\n3\n69:8\n8:69\n\n25\n8in\n413\n413g\nmissing/*.mov\n\n";
+        let answers = "ardron\n\ntwo\n3\n69:8\n8:69\n\n25\n8ft\n8in\n413\n413g\nmissing/*.mov\n\n";
         let (draft, asked) = answered(Draft::default(), folder.path(), answers);
         let draft = draft.unwrap();
         assert_eq!((draft.blades, draft.rotors, draft.diameter_m), (Some(3), Some(4), Some(0.2032)), "{asked}");
         assert_eq!(draft.gear, Some(Gear { pinion: 8, wheel: 69 }));
         assert_eq!(draft.loads.len(), 1);
-        for words in ["Did you mean \"ardrone\"", "whole number", "swapped", "from 10 mm", "413g", "No file matches"] {
+        for words in [
+            "Did you mean \"ardrone\"",
+            "whole number",
+            "swapped",
+            "did you mean 25in",
+            "from 10 mm",
+            "413g",
+            "No file matches",
+        ] {
             assert!(asked.contains(words), "{words}:\n{asked}");
         }
     }

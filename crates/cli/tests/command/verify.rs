@@ -61,6 +61,10 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     refused(text(&figure), &["exists already"]);
     let wrong = hovertone(&["verify", text(&sound), text(&half), "--vehicle", vehicle]).ends_with(3);
     assert!(wrong.stdout.contains("failed: the heard speeds are 2.00 times the logged speeds"), "{}", wrong.stdout);
+    let electrical = folder.path().join("erpm.csv");
+    write_log(&flown, &electrical, 10, 7.0);
+    let pairs = hovertone(&["verify", text(&sound), text(&electrical), "--vehicle", vehicle]).ends_with(3);
+    assert!(pairs.stdout.contains("electrical speeds of motors with 7 pole pairs"), "{}", pairs.stdout);
     let in_rev_s = folder.path().join("rev_s.csv");
     write_log(&flown, &in_rev_s, 10, 1.0 / 60.0);
     let unit = hovertone(&["verify", text(&sound), text(&in_rev_s), "--vehicle", vehicle]).ends_with(3);

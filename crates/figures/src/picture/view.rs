@@ -30,12 +30,12 @@ pub fn views_of_recording(tone: Option<&RotorTone>, sample_rate_hz: f64, config:
         window_s: config.window_s,
     };
     let zooms = bands.iter().map(|band| {
-        let margin_hz = config.margin_share * band.width_hz();
         // separated rotors may lie beside the band
         let rotors = tone.map_or(&[][..], |tone| &tone.rotors);
         let lines_hz = || rotors.iter().map(|rotor| rotor.speed.speed.tone_hz(band.order));
         let (low_hz, high_hz) =
             (lines_hz().fold(band.band_hz_low, f64::min), lines_hz().fold(band.band_hz_high, f64::max));
+        let margin_hz = config.margin_share * (high_hz - low_hz);
         PictureView {
             harmonic: Some(band.harmonic),
             hz_low: (low_hz - margin_hz).max(0.0),
