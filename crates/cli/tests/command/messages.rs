@@ -153,7 +153,7 @@ fn names_cannot_move_the_cursor_and_lose_the_folder_that_they_share() {
     for shown in ["\na\\u{1b}[2Jb.wav ", "\ntwo\\nlines.wav ", "\n漢字.wav "] {
         assert!(run.stdout.contains(shown), "{shown:?}:\n{}", run.stdout);
     }
-    assert!(run.stdout.ends_with(&format!("\nfiles in {}/\n", folder.path().display())), "{}", run.stdout);
+    assert!(run.stdout.contains(&format!("\nfiles in {}/\n", folder.path().display())), "{}", run.stdout);
     let alone = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&paths[2])]).ends_with(0).stdout;
     assert!(alone.contains(text(&paths[2])), "a single name stays as it was typed:\n{alone}");
     // the command line stands in a comment of the experiment that it means
