@@ -19,6 +19,7 @@ mod demo;
 mod examples;
 mod exit_codes;
 mod filing;
+mod fit;
 mod flight_logs;
 mod folded;
 mod greybox;

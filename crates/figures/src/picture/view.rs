@@ -16,8 +16,8 @@ pub struct PictureView {
     pub window_s: f64,
 }
 
-/// All frequencies up to a little above the highest followed harmonic, and each of these harmonics alone, of all rotors. Without a tone, all frequencies
-/// of the recording.
+/// All frequencies up to a little above the highest followed harmonic, and each of these harmonics alone, of all rotors. Without a tone, all
+/// frequencies of the recording.
 pub fn views_of_recording(tone: Option<&RotorTone>, sample_rate_hz: f64, config: &PictureConfig) -> Vec<PictureView> {
     let nyquist_hz = sample_rate_hz / 2.0;
     let bands = tone.map_or(&[][..], |tone| &tone.bands);
