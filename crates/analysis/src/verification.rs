@@ -21,6 +21,9 @@ pub struct ComparedPoint {
     pub logged_rev_s: f64,
 }
 
+/// Name of the mean of the motors of a log, with which rotors that are not separated are compared.
+pub const MEAN_OF_MOTORS: &str = "mean of all motors";
+
 /// One track against its motor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerifiedRotor {

@@ -92,7 +92,10 @@ fn change(
     let updated = updated_model(&text, rotor).map_err(|error| unchanged(&error, model, arguments))?;
     let why = Unused {
         without_place: &|_| {
-            Notice::new("this model has no number for it, and --into adds no new numbers", "leave the flag out")
+            Notice::new(
+                "this model has no number for it, and --into adds no new numbers",
+                "leave the flag out; or add the number to the model by hand, and --into then sets it; or write a new model with --to gazebo",
+            )
         },
         same: Notice::new("this model has the same number already", "leave the flag out"),
     };

@@ -181,7 +181,10 @@ fn write_signals(
         Ok(writer.write_record(&cells)?)
     };
     let stream = open_stream(file, THE_LOG)?;
-    let loss = signal_rows(stream, names, &arguments.signal, take).map_err(|error| match error {
+    // a pasted line of the list has its unit behind two spaces
+    let without_unit = |line: &String| line.split("  ").next().unwrap_or(line).to_owned();
+    let signals: Vec<String> = arguments.signal.iter().map(without_unit).collect();
+    let loss = signal_rows(stream, names, &signals, take).map_err(|error| match error {
         LogError::Write(error) => Failure::cannot_write(&error, output),
         error => log_failure(&error, file),
     })?;

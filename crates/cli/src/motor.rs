@@ -94,16 +94,16 @@ impl<'a> Plan<'a> {
 
     fn tell(&self, told: &Told, terminal: &mut Terminal) -> Result<Ending, Failure> {
         let mut ending = if told.record.has_time_constant() { Ending::Done } else { Ending::Incomplete };
+        if !told.notices.is_empty() {
+            terminal.warning_count(told.notices.len());
+            told.notices.iter().for_each(|notice| terminal.warning(notice, ""));
+            ending = ending.max(if told.is_whole { Ending::Done } else { Ending::Incomplete });
+        }
         if self.arguments.json {
             terminal.data(&motor_json(&told.record).map_err(Failure::internal)?)?;
         } else {
             let width = terminal.fold_width();
             terminal.text(&motor_text(&told.record, width))?;
-        }
-        if !told.notices.is_empty() {
-            terminal.flush()?;
-            told.notices.iter().for_each(|notice| terminal.warning(notice, ""));
-            ending = ending.max(if told.is_whole { Ending::Done } else { Ending::Incomplete });
         }
         if let Some(figure) = &self.figure {
             terminal.flush()?;

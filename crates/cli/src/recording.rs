@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::files::sha256_of;
 pub(crate) use crate::job::{HeardJobs, Hearing, Job, Requests, in_memory};
+use crate::nearest::meant_file;
 use crate::progress::{Progress, Share};
 use crate::recording_files::of_wrong_kind;
 use crate::stored::is_address;
@@ -16,7 +17,7 @@ use hovertone::speed::{Config, NoTone, OtherRotor, better_rotor_from_passes, pas
 use hovertone::tones::{Meaning, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
 use hovertone_media::{MediaError, Recording};
-use hovertone_report::{Notice, SpeedRecord};
+use hovertone_report::{Notice, SpeedRecord, printable};
 use hovertone_workflow::{NotHeard, failed_record, notices_of, progress_of};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -44,7 +45,17 @@ pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> V
 
 /// Analyses a recording. One that could not be heard has its reason in place of an answer.
 pub(crate) fn heard_or_failed(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Heard {
-    hear(job, hearing, share).unwrap_or_else(|failure| failed(job, failure))
+    hear(job, hearing, share).unwrap_or_else(|failure| failed(job, with_meant_file(job, failure)))
+}
+
+/// The failure of a file that is not there, with the file that was meant.
+fn with_meant_file(job: &Job, failure: NotHeard) -> NotHeard {
+    match meant_file(&job.path) {
+        Some(meant) => {
+            NotHeard { reason: format!("{}; did you mean {}?", failure.reason, printable(&meant)), ..failure }
+        }
+        None => failure,
+    }
 }
 
 /// A recording that broke the analysis, which is a bug.

@@ -5,7 +5,7 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::labels::{LabelPlan, label, note_if_ambiguous};
 use crate::microphones::{ArrayPlan, label_all};
-use crate::outputs::Outputs;
+use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, hear_all, in_memory};
 use crate::settings::{check_tips_heard, check_tips_ruled_out, config_of, idle_mass};
@@ -14,7 +14,7 @@ use crate::text_file::{TextFormat, TextKind};
 use crate::vehicles::preset;
 use hovertone::speed::RotorsConfig;
 use hovertone_media::Samples;
-use hovertone_report::{Notice, SpeedRecord, condition_table, printable, speed_json, speed_table, track_csv};
+use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
 
 /// What the columns of the table mean.
@@ -58,6 +58,7 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         // a header alone is no track
         if track.lines().nth(1).is_some() {
             plan.outputs.write(&path, track)?;
+            terminal.say(&written(&path));
         } else {
             terminal.say("--track wrote no file, because no recording has a speed");
         }
@@ -75,14 +76,15 @@ fn say_idle_mass(plan: &Plan, arguments: &SpeedArguments, terminal: &mut Termina
 /// Says that nobody told the number of the rotors that were separated. A warning says so where not all could be.
 fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], terminal: &mut Terminal) {
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
-    let heard = records.iter().max_by_key(|record| record.rotors().len());
-    let count = heard.map_or(0, |record| record.rotors().len());
-    let place = match heard {
-        Some(record) if records.len() > 1 => format!("in {}, ", printable(&record.file)),
-        _ => String::new(),
+    let counts: Vec<usize> = records.iter().map(|record| record.rotors().len()).collect();
+    let count = counts.iter().copied().max().unwrap_or_default();
+    let several = counts.iter().filter(|rotors| **rotors >= RotorsConfig::SEVERAL as usize).count();
+    let place = match several {
+        all if all == records.len() => String::new(),
+        some => format!("in {some} of the recordings, "),
     };
     if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
-        let what = format!("{place}hovertone found {count} rotors by itself, because their number is not given");
+        let what = format!("{place}hovertone found up to {count} rotors by itself, because their number is not given");
         let hint = format!(
             "if your vehicle has {count} rotors, you need to do nothing; if not, give their number, as in --rotors 6, and --rotors 1 \
              where one runs alone"

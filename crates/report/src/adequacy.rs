@@ -134,13 +134,19 @@ fn why_one_law(range: Option<LoadRange>) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "the forces differ from the law by {:.2} % of the largest force (rms); if the law holds, the chance of such differences is {} (χ² = {}, \
-            {} degree{} of freedom)\n",
+            "the forces differ from the law by {:.2} % of the largest force (rms); if the law and the stated uncertainties are right, the chance of \
+            such differences is {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
             p_value_text(agreement.p_value),
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
+            fit.widening().map_or(String::new(), |factor| {
+                format!(
+                    "; therefore the ± of C_f is {} times as large as the stated uncertainties make it",
+                    significant(factor, 2)
+                )
+            })
         ),
         None if fit.points.len() > 1 => {
             format!(

@@ -81,7 +81,7 @@ fn rotors_table(logged: &[Logged<'_>]) -> TextTable {
         Column::numbers("heard", "rev/s"),
         Column::numbers("heard − logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),
-        Column::numbers("log within ±", ""),
+        Column::numbers("log within ± of the sound", ""),
         Column::numbers("points", ""),
     ]);
     for Logged { name, log, .. } in logged {

@@ -139,6 +139,9 @@ pub(crate) fn trust(record: &GreyBoxRecord) -> String {
     if record.is_doubtful() {
         return "the numbers may be wrong by more than their ±: the warnings name the reason".to_owned();
     }
+    if !record.fit.information.correlations.is_empty() {
+        return "the ± may be too small, because the flight hardly tells some of these numbers from each other: the lines below name them".to_owned();
+    }
     if record.length_s < TESTED_S {
         return format!(
             "the ± may be too small, because the flight is short: {:.0} s, where the flights that the ± was tested with had 60 s",

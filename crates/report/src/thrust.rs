@@ -15,7 +15,7 @@ pub(crate) const CONSTANT_UNIT: &str = "N s²";
 pub(crate) const WITHOUT_FLIGHTS: &str = ", without the differences from flight to flight";
 
 /// The meaning of ± in a table of loads.
-pub const LOADS_FOOTNOTE: &str = "In the row of a load, ± covers its mass and speed (k = 2). The ± of the final C_f also covers what all loads share: air, ground effect, scale, rotors that were not separated.";
+pub const LOADS_FOOTNOTE: &str = "The ± in the row of a load has only its mass and its speed (k = 2). The ± of the final C_f has all lines of the budget of the uncertainty, also those that all loads share.";
 
 /// The table of one method: a row for each load, like tables 1 and 2 of the paper.
 pub fn thrust_table(table: &ThrustTable) -> TextTable {

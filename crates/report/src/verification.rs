@@ -6,7 +6,7 @@ use crate::printable::printable;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::version::VERSION;
-use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, Verification, percent_in_words};
+use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, MEAN_OF_MOTORS, Verification, percent_in_words};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -38,16 +38,18 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
     let found = &record.verification;
     let mut shown = TextTable::new(vec![
         Column::words("rotor"),
-        Column::words("nearest in the log"),
+        Column::words("compared with"),
         Column::numbers("heard", "rev/s"),
         Column::numbers("heard − logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),
-        Column::numbers("log within ±", ""),
+        Column::numbers("log within ± of the sound", ""),
         Column::numbers("points", ""),
     ]);
     for (number, rotor) in (1..).zip(&found.rotors) {
+        // rotors that are not separated have one speed, that of all
+        let is_of_all = found.rotors.len() == 1 && rotor.name == MEAN_OF_MOTORS;
         shown.push(vec![
-            number.to_string(),
+            if is_of_all { "all".to_owned() } else { number.to_string() },
             rotor.name.clone(),
             significant(rotor.speed_rev_s, 5),
             signed(rotor.bias_rev_s, 3),
@@ -232,7 +234,7 @@ impl Undecided {
         let within = percent_in_words(found.coverage());
         let few = format!("only {within} of the logged speeds lie within the ± of the heard speeds, and 95 % should");
         let means = fixed(100.0 * (found.speed_ratio - 1.0).abs(), 2);
-        let means = format!("the mean speeds of sound and log are equal within {means} %, but");
+        let means = format!("the mean speeds of sound and log differ by only {means} %, but");
         match self {
             Self::OffsetOutside(offset_s) => {
                 let offset = signed(offset_s, 2);

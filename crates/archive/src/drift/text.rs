@@ -73,7 +73,8 @@ fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
         false => {
-            "the means of all rotors are compared (of one rotor that ran alone, its speed): at least one of the archives has no single rotors\n"
+            "the means of all rotors are compared, because the rotors were not separated in at least one archive (of one rotor that ran alone, this is \
+            its speed)\n"
         }
     }
 }

@@ -281,7 +281,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         format!("it runs {direction} by {off}")
     } else {
         let off = in_ppm(check.correction_ppm, check.correction_std_ppm);
-        format!("it is off by {off}")
+        format!("it may run fast or slow: the correction is {off}")
     };
     let advice = match judgement {
         Judgement::Undecided if comparison.is_known_the_less_exact() => {

@@ -69,7 +69,11 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String], worst: Optio
              rotors; then measure more rows",
         ),
         _ if is_of_rows && !stated.is_empty() => {
-            Notice::new(warning.to_string(), format!("{}; or {} is too small", warning.hint(), stated.join(" or ")))
+            let has_speed = stated.iter().any(|column| column.contains("speed") || column.contains("rpm"));
+            let no_speed =
+                if has_speed { "" } else { "; or the speeds are uncertain too: add a column such as speed_std_rpm" };
+            let hint = format!("{}; or {} is too small{no_speed}", warning.hint(), stated.join(" or "));
+            Notice::new(warning.to_string(), hint)
         }
         _ => Notice::from(warning),
     }
@@ -141,7 +145,11 @@ mod tests {
     fn stated_uncertainties_are_named_where_rows_do_not_fit() {
         let columns = ["thrust_std_g".to_owned()];
         let of_rows = ThrustWarning::RowsDoNotFit { names: vec!["line 3".to_owned()], are_left_out: false };
-        assert!(notice_of(&of_rows, &columns, None).hint.ends_with("; or thrust_std_g is too small"));
+        assert!(
+            notice_of(&of_rows, &columns, None)
+                .hint
+                .contains("; or thrust_std_g is too small; or the speeds are uncertain too")
+        );
         assert_eq!(notice_of(&of_rows, &[], None), Notice::from(&of_rows));
         assert_eq!(notice_of(&ThrustWarning::SingleLoad, &columns, None), Notice::from(&ThrustWarning::SingleLoad));
     }

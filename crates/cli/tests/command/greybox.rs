@@ -117,7 +117,7 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let few = log("few.csv", &(turning.clone() + &few));
     refused_with(
         &["greybox", &few, "--vehicle", "ardrone"],
-        &["the flight has too few speeds, 29 in 0.3 s: with as many in a second, a fit needs 2 s or more"],
+        &["the flight has too few speeds, 29 in 0.3 s: at this rate, a fit needs a flight of 2 s or longer"],
     );
     // neither commands nor speeds that never change show a model
     let long = |command: fn(u32) -> f64| {

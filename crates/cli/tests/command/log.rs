@@ -57,6 +57,9 @@ fn a_log_is_listed_for_people_and_for_programs() {
     let settling = written(folder.path(), "settling.csv", "time_s,settling time (s)\n0,0.1\n1,0.2\n");
     let names = hovertone(&["log", &settling, "--signals"]).ends_with(0).stdout;
     assert!(names.contains("table.settling time (s)  (s)"), "{names}");
+    // a line of the list can be pasted as it is
+    let pasted = ["log", &settling, "--signal", "table.settling time (s)  (s)", "-o", text(&out), "--force"];
+    hovertone(&pasted).ends_with(0);
 }
 
 #[test]

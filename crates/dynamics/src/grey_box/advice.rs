@@ -1,6 +1,7 @@
 //! What a flight does not tell, and the manoeuvre that would.
 
 use super::fit::GreyBoxFit;
+use super::information::Correlation;
 use super::inputs::LoopInputs;
 use super::parameters::Parameter;
 use hovertone_vehicle::{Axis, in_list};
@@ -67,22 +68,28 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
             hint: "fly climbs and descents with the largest command".to_owned(),
         });
     }
-    advice.extend(fit.information.correlations.iter().map(|pair| Advice {
-        what: format!(
-            "{} and {} have the same effect in this flight, so each of them is uncertain (correlation {})",
-            pair.first.in_words(),
-            pair.second.in_words(),
-            format!("{:.2}", pair.correlation).replace('-', "−")
-        ),
-        hint: match pair.first.axis() {
-            Some(axis) => format!(
-                "fly {} doublets (stick one way, then the other) of two lengths, 0.2 and 0.6 s",
-                axis.in_words()
-            ),
-            None => "fly doublets (stick one way, then the other) of different lengths".to_owned(),
-        },
-    }));
+    advice.extend(alike(&fit.information.correlations));
     advice
+}
+
+/// That a flight hardly tells some parameters from each other; `None` where it tells all.
+fn alike(correlations: &[Correlation]) -> Option<Advice> {
+    let strongest = correlations.first()?.correlation;
+    let mut names: Vec<String> = Vec::new();
+    for name in correlations.iter().flat_map(|pair| [pair.first, pair.second]).map(Parameter::in_words) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    Some(Advice {
+        what: format!(
+            "{} have nearly the same effect in this flight, so each of them is uncertain (correlation up to {})",
+            in_list(&names, "and"),
+            format!("{strongest:.2}").replace('-', "−")
+        ),
+        hint: "fly a minute of doublets (stick one way, then the other) in roll, pitch, yaw and climb, half of them 0.2 s and half 0.6 s long"
+            .to_owned(),
+    })
 }
 
 fn measurement(axis: Axis) -> &'static str {

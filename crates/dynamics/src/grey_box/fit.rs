@@ -67,7 +67,7 @@ pub enum GreyBoxStop {
     },
     /// Nearly all observations lie within the log, and these are too few.
     #[error(
-        "the flight has too few speeds, {found} in {flight_s:.1} s: with as many in a second, a fit needs {needed_s:.0} s or more"
+        "the flight has too few speeds, {found} in {flight_s:.1} s: at this rate, a fit needs a flight of {needed_s:.0} s or longer"
     )]
     TooShort {
         /// Time from the first to the last observation, s.

@@ -8,7 +8,7 @@ mod tests;
 
 use super::agreement::agreement_of;
 use super::differences::{Difference, POINTS_MIN, compared_point, near_rows, rounding_std};
-use hovertone_analysis::{RotorsHeard, TrackPoint, Verification, VerifiedRotor};
+use hovertone_analysis::{MEAN_OF_MOTORS, RotorsHeard, TrackPoint, Verification, VerifiedRotor};
 
 /// Step of the coarse search of the offset, in s. *Numeric.*
 const OFFSET_STEP_S: f64 = 0.1;
@@ -48,9 +48,6 @@ pub struct LoggedSpeeds<'a> {
     /// `speeds_rev_s[motor][row]`.
     pub speeds_rev_s: &'a [Vec<f64>],
 }
-
-/// Name of the mean of the motors.
-const MEAN_OF_MOTORS: &str = "mean of all motors";
 
 /// Why nothing can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -140,7 +137,10 @@ fn verification_from_log(
     let is_worse = |cost: f64| cost.is_finite() && cost > ELSEWHERE_FACTOR * best.cost;
     let is_offset_told = elsewhere.is_some_and(|place| is_worse(place.cost))
         && is_worse(comparison.cost_of_constants(best.offset_s, FINE_POINTS));
-    let fine_s = best.offset_s;
+    // where the speeds show no offset, none is the simplest
+    let calm_s = offsets_s.map_or(0.0, |[low_s, high_s]| f64::midpoint(low_s, high_s));
+    let is_calm_as_good = !is_offset_told && comparison.cost(calm_s, FINE_POINTS) <= ELSEWHERE_FACTOR * best.cost;
+    let fine_s = if is_calm_as_good { calm_s } else { best.offset_s };
     let offset_s = offsets_s.map_or(fine_s, |[low_s, high_s]| fine_s.min(high_s).max(low_s));
     // a fit that is hardly better outside of the limits tells nothing
     let is_better_outside =

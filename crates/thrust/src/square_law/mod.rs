@@ -71,6 +71,9 @@ const ROUNDING_SHARE: f64 = 5e-5;
 /// tables. *Decision.*
 const SCATTER_POINTS_MIN: usize = 3;
 
+/// A factor of a standard uncertainty above this is worth a word. *Decision.*
+const WIDENED: f64 = 1.1;
+
 /// Reason why the scatter of points tells no uncertainty of their constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -102,6 +105,16 @@ impl SquareLawFit {
         }
         let left_out = self.shares.len() - count;
         (self.residual_max_share < ROUNDING_SHARE).then_some(NoScatter::Computed { left_out })
+    }
+}
+
+impl SquareLawFit {
+    /// By which factor the standard uncertainty of the constant is larger than the stated uncertainties of the points alone make it, because the
+    /// points scatter more. `None` where it is not, and where no uncertainties are stated.
+    pub fn widening(&self) -> Option<f64> {
+        self.agreement?;
+        let factor = self.thrust_constant_n_s2.std_uncertainty? / self.own_std_n_s2;
+        (factor.is_finite() && factor > WIDENED).then_some(factor)
     }
 }
 
