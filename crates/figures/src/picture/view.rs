@@ -32,7 +32,8 @@ pub fn views_of_recording(tone: Option<&RotorTone>, sample_rate_hz: f64, config:
     let zooms = bands.iter().map(|band| {
         // separated rotors may lie beside the band
         let rotors = tone.map_or(&[][..], |tone| &tone.rotors);
-        let lines_hz = || rotors.iter().map(|rotor| rotor.speed.speed.tone_hz(band.order));
+        let points = || rotors.iter().flat_map(|rotor| &rotor.track);
+        let lines_hz = || points().map(|point| band.order.lines_per_turn() * point.speed_rev_s);
         let (low_hz, high_hz) =
             (lines_hz().fold(band.band_hz_low, f64::min), lines_hz().fold(band.band_hz_high, f64::max));
         let margin_hz = config.margin_share * (high_hz - low_hz);
