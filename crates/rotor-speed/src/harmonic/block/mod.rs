@@ -26,9 +26,11 @@ const GRID_PER_CELL: f64 = 3.0;
 const NEWTON_STEPS: u32 = 8;
 /// Largest number of times that a step of Newton's method is halved until it climbs. *Numeric.*
 const HALVINGS_MAX: u32 = 4;
-/// Step of the speed at which Newton's method ends, in resolution cells: it converges quadratically, and the step after this one would be below 1e-5.
-/// *Numeric.*
-const STEP_MIN_CELLS: f64 = 2e-3;
+/// Step at which Newton's method ends, in resolution cells of the speed, and of its change over the block: it converges quadratically, and the step
+/// after this one would be below 1e-5. *Numeric.*
+const STEP_MIN_CELLS: f64 = 1e-3;
+/// The same of a speed whose steps had to be halved, or whose slope is not found yet. *Numeric.*
+const SURE_STEP_MIN_CELLS: f64 = 1e-6;
 /// Largest step of the slope, as a change of speed over the block in resolution cells. *Numeric.*
 const SLOPE_STEP_CELLS_MAX: f64 = 4.0;
 /// Largest distance of the maximum from the range of the grid, in resolution cells; beyond, it belongs to another peak. *Decision.*
@@ -163,7 +165,9 @@ impl BlockSlices {
                 }
                 (step_speed, step_slope, halvings) = (step_speed / 2.0, step_slope / 2.0, halvings + 1);
             }
-            if step_speed.abs() < STEP_MIN_CELLS * cell {
+            let step_cells = step_speed.abs() / cell;
+            let is_quadratic = halvings == 0 && step_slope.abs() * self.length_s < STEP_MIN_CELLS * cell;
+            if step_cells < SURE_STEP_MIN_CELLS || is_quadratic && step_cells < STEP_MIN_CELLS {
                 break;
             }
         }
