@@ -1,18 +1,24 @@
 //! "Did you mean …?"
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Names with a lower similarity are not suggested.
 const LIKENESS_MIN: f64 = 0.5;
 
-/// The name of the file beside a missing one whose name is most like it; `None` where the file is there.
+/// The name of the file of the same kind beside a missing one whose name is most like it; `None` where the file is there.
 pub(crate) fn meant_file(path: &Path) -> Option<String> {
-    let typed = path.file_name().filter(|_| !path.exists())?.to_str()?;
+    // equal endings are no likeness
+    let stem = |path: &Path| Some(path.file_stem()?.to_str()?.to_owned());
+    let typed = stem(path).filter(|_| !path.exists())?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let names: Vec<String> =
-        fs::read_dir(folder).ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
-    nearest(typed, names.iter().map(String::as_str)).map(str::to_owned)
+    let is_of_kind = |file: &PathBuf| path.extension().is_none_or(|kind| file.extension() == Some(kind));
+    let entries = fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
+    let files: Vec<PathBuf> = entries.filter(is_of_kind).collect();
+    let stems: Vec<String> = files.iter().filter_map(|file| stem(file)).collect();
+    let meant = nearest(&typed, stems.iter().map(String::as_str))?;
+    let file = files.iter().find(|file| stem(file).is_some_and(|it| it == meant))?;
+    Some(file.file_name()?.to_str()?.to_owned())
 }
 
 /// The known name with the highest similarity to the typed one, if any is similar.
@@ -31,10 +37,10 @@ mod tests {
     #[test]
     fn a_file_that_is_not_there_was_meant_to_be_the_one_beside_it() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("hover1.wav"), "").unwrap();
+        ["hover1.wav", "hovr1.png"].map(|name| fs::write(folder.path().join(name), "").unwrap());
         assert_eq!(meant_file(&folder.path().join("hovr1.wav")).as_deref(), Some("hover1.wav"));
         assert_eq!(meant_file(&folder.path().join("hover1.wav")), None);
-        assert_eq!(meant_file(&folder.path().join("loads.csv")), None);
+        assert_eq!(meant_file(&folder.path().join("none.wav")), None);
     }
 
     #[test]

@@ -45,17 +45,7 @@ pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> V
 
 /// Analyses a recording. One that could not be heard has its reason in place of an answer.
 pub(crate) fn heard_or_failed(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Heard {
-    hear(job, hearing, share).unwrap_or_else(|failure| failed(job, with_meant_file(job, failure)))
-}
-
-/// The failure of a file that is not there, with the file that was meant.
-fn with_meant_file(job: &Job, failure: NotHeard) -> NotHeard {
-    match meant_file(&job.path) {
-        Some(meant) => {
-            NotHeard { reason: format!("{}; did you mean {}?", failure.reason, printable(&meant)), ..failure }
-        }
-        None => failure,
-    }
+    hear(job, hearing, share).unwrap_or_else(|failure| failed(job, failure))
 }
 
 /// A recording that broke the analysis, which is a bug.
@@ -220,7 +210,17 @@ pub(crate) fn opened(job: &Job, hearing: Hearing) -> Result<Recording, Failure> 
 fn opened_or_not(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
     match wrong_kind(&job.path).filter(|_| job.samples.is_none()) {
         Some(reason) => Err(NotHeard::because(if job.path.is_dir() { "not_a_file" } else { "not_found" }, reason)),
-        None => job.open(hearing).map_err(|error| NotHeard::because(error.class(), error)),
+        None => job.open(hearing).map_err(|error| with_meant_file(job, NotHeard::because(error.class(), error))),
+    }
+}
+
+/// The failure of a file that is not there, with the file that was meant.
+fn with_meant_file(job: &Job, failure: NotHeard) -> NotHeard {
+    match meant_file(&job.path) {
+        Some(meant) => {
+            NotHeard { reason: format!("{}; did you mean {}?", failure.reason, printable(&meant)), ..failure }
+        }
+        None => failure,
     }
 }
 
