@@ -7,7 +7,7 @@ use hovertone_report::{Contradicted, Notice, NoticeKind, SpeedRecord};
 use hovertone_vehicle::RotorSpeed;
 
 /// What to do where a recording seems to be of another vehicle than the constant.
-const OTHER_VEHICLE: &str = "give recordings of the vehicle with which the constant was measured";
+const OTHER_VEHICLE: &str = "another vehicle needs a constant of its own (`hovertone identify`)";
 
 /// The warning that recordings have such a speed. Flags that name the tone can lead there, since they replace the tone behind the constant.
 pub(crate) fn foreign_speed(records: &[SpeedRecord], heard: &HeardTone, typed: &ToneArguments) -> Option<Notice> {
@@ -73,7 +73,7 @@ fn why_not_heard(instead: Option<OtherRotor>, [low, high]: [f64; 2], flags: &[&s
     let may_turn = format!("a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s");
     Some(match flags {
         [] if (low..=high).contains(&speed_rev_s) => format!(
-            "this does not sound like the vehicle of the constant, but {may_turn}; if this is another vehicle, {OTHER_VEHICLE}; if \
+            "this does not sound like the vehicle of the constant, but {may_turn}; {OTHER_VEHICLE}; if \
             it is the same, move the microphone nearer"
         ),
         [] => format!("{not_heard}. But {may_turn}: {OTHER_VEHICLE}"),

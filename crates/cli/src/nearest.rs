@@ -37,7 +37,8 @@ mod tests {
     #[test]
     fn a_file_that_is_not_there_was_meant_to_be_the_one_beside_it() {
         let folder = tempfile::tempdir().unwrap();
-        ["hover1.wav", "hovr1.png"].map(|name| fs::write(folder.path().join(name), "").unwrap());
+        fs::write(folder.path().join("hover1.wav"), "").unwrap();
+        fs::write(folder.path().join("hovr1.png"), "").unwrap();
         assert_eq!(meant_file(&folder.path().join("hovr1.wav")).as_deref(), Some("hover1.wav"));
         assert_eq!(meant_file(&folder.path().join("hover1.wav")), None);
         assert_eq!(meant_file(&folder.path().join("none.wav")), None);

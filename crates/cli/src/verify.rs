@@ -64,8 +64,10 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     }
     let logged = LoggedSpeeds { time_s: &speeds.time_s, names: &speeds.names, speeds_rev_s: &speeds.values };
     let offsets_s = arguments.log_offset_s.map(|(low_s, high_s)| [low_s, high_s]);
-    let verification = verification_of(record, logged, offsets_s)
-        .map_err(|reason| Failure::failed(reason.to_string(), reason.hint(), log))?;
+    let verification = verification_of(record, logged, offsets_s).map_err(|reason| {
+        let blamed = if reason == NotVerified::NoTrack { &arguments.recording } else { log };
+        Failure::failed(reason.to_string(), reason.hint(), blamed)
+    })?;
     let passes = verification.passes();
     // the text says it in its last line
     if let Some(notice) = small_plus_minus(&verification).filter(|_| arguments.json) {

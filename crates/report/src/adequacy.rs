@@ -134,7 +134,7 @@ fn why_one_law(range: Option<LoadRange>) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "the forces differ from the law by {:.2} % of the largest force (rms); if the law and the stated uncertainties are right, the chance of \
+            "the forces differ from F = C ω² by {:.2} % of the largest force (rms); if this law and the stated uncertainties are right, the chance of \
             such differences is {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
             p_value_text(agreement.p_value),
@@ -150,7 +150,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
         ),
         None if fit.points.len() > 1 => {
             format!(
-                "the forces differ from the law by {:.2} % of the largest force (rms)\n",
+                "the forces differ from F = C ω² by {:.2} % of the largest force (rms)\n",
                 100.0 * fit.residual_rms_share
             )
         }

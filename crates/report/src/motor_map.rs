@@ -37,6 +37,11 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         the command, so the true gain is larger, and its ± does not contain this. For a better gain, hold at least two \
         commands for a second each\n";
     }
+    let offsets = || maps().filter(|map| map.gain_rev_s.is_some()).filter_map(|map| map.offset_rev_s);
+    if offsets().any(|offset_rev_s| offset_rev_s >= 0.0) {
+        text +=
+            "line at command 0: the speed is this number + gain × command; near command 0 the motor may stand still\n";
+    }
     if maps().filter_map(|map| map.gain_rev_s).any(is_nothing) {
         text += "a gain whose ± is larger than the gain shows nothing: the commands differ too little\n";
     }

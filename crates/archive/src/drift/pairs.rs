@@ -53,14 +53,15 @@ impl Pair<'_> {
         }
         let earlier = self.numbering.speed_of(self.earlier, earlier)?;
         let later = self.numbering.speed_of(self.later, later)?;
+        let ratio = later.speed_rev_s / earlier.speed_rev_s;
         let shares = |std_of_earlier: f64, std_of_later: f64| {
-            (std_of_earlier / earlier.speed_rev_s).hypot(std_of_later / later.speed_rev_s)
+            ratio * (std_of_earlier / earlier.speed_rev_s).hypot(std_of_later / later.speed_rev_s)
         };
         Some(PairOfSpeeds {
             earlier_rev_s: earlier.speed_rev_s,
             later_rev_s: later.speed_rev_s,
             std_share: shares(earlier.std_rev_s?, later.std_rev_s?),
-            clock_std_share: clock_std_share(self.earlier).hypot(clock_std_share(self.later)),
+            clock_std_share: ratio * clock_std_share(self.earlier).hypot(clock_std_share(self.later)),
         })
     }
 }

@@ -99,11 +99,12 @@ pub(super) fn change_of_groups(
     let std_share = own.sqrt().hypot(earlier.clock_std_share).hypot(later.clock_std_share);
     let freedom = |share: f64, group: &Group| share.powi(2) / (group.count as f64 - 1.0);
     let degrees_of_freedom = std_share.powi(4) / (freedom(of_earlier, &earlier) + freedom(of_later, &later));
+    let ratio = later.mean_rev_s / earlier.mean_rev_s;
     Some(RotorChange {
         rotor,
         earlier_count: earlier.count,
         later_count: later.count,
-        change: tested(later.mean_rev_s / earlier.mean_rev_s - 1.0, std_share, Some(degrees_of_freedom)),
+        change: tested(ratio - 1.0, ratio * std_share, Some(degrees_of_freedom)),
     })
 }
 

@@ -78,8 +78,8 @@ Exit codes:
   1  a file or folder is not there, is of another kind, or cannot be read or written
   2  wrong use: a flag or a number has no meaning, or a file that exists would be replaced
   3  done, but something is missing: no rotor tone, a tone whose order is not known, a file that
-     ends early, a calibration that does not pass, loads or table rows that contradict each other,
-     a vehicle that the sound contradicts
+     ends early, a calibration that does not pass, loads or table rows of which none fits the
+     others, a vehicle that the sound contradicts
   130  interrupted with Ctrl-C: unfinished files are removed
 
 Results go to stdout and to files, all messages to stderr.

@@ -173,6 +173,7 @@ fn result_in_words(comparison: &Comparison, clock_ppm: f64) -> String {
         (Judgement::Passes, _) => "",
         (Judgement::Undecided, _) => " (clock)",
         (Judgement::Fails, Relation::Agrees) => " (clock)",
+        (Judgement::Fails, Relation::None) => " (the known number does not fit)",
         (Judgement::Fails, _) if comparison.heard.is_rotor => " (blades or gear)",
         (Judgement::Fails, _) => " (tone)",
     };

@@ -2,7 +2,7 @@
 
 use super::Plan;
 use hovertone::thrust::{
-    ForcePoint, LoadRange, SquareLawFit, ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach,
+    ForceLaw, ForcePoint, LoadRange, SquareLawFit, ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach,
 };
 use hovertone_exchange::{StandGroup, StandTable};
 use hovertone_report::{Notice, fixed, signed, significant};
@@ -54,14 +54,14 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String], worst: Optio
             warning.to_string(),
             "C_f is still valid near these forces; to test the law, measure a wider range of forces",
         ),
-        ThrustWarning::OtherLawPreferred { .. } if let Some(WorstRow { name, share }) = worst => Notice::new(
-            warning.to_string(),
-            format!(
-                "simulators use F = C_f ω², which is {} % off at {name}; use C_f only near the measured speeds, if this is near enough; \
-                 else use the preferred law",
-                signed(100.0 * share, 1)
-            ),
-        ),
+        ThrustWarning::OtherLawPreferred { law, .. } if let Some(WorstRow { name, share }) = worst => {
+            let zero = if *law == ForceLaw::SquareWithIntercept { "did the scale show 0 at rest? If so, " } else { "" };
+            let off = signed(100.0 * share, 1);
+            let hint = format!(
+                "{zero}simulators use F = C_f ω², which is {off} % off at {name}: use C_f only if this is near enough, and else the preferred law"
+            );
+            Notice::new(warning.to_string(), hint)
+        }
         // a table has no recordings, and no tone
         ThrustWarning::ConstantsSplit => Notice::new(
             warning.to_string(),

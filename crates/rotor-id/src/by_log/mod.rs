@@ -19,10 +19,12 @@ mod flight_log;
 mod log_rows;
 mod motor_model;
 mod noise_model;
+mod not_verified;
 mod nuisance;
 mod verification;
 
-pub use verification::{LoggedSpeeds, NotVerified, verification_of_heard};
+pub use not_verified::NotVerified;
+pub use verification::{LoggedSpeeds, verification_of_heard};
 
 pub use flight_log::{FlightLog, LogError, LogSignals, MotorSignal};
 

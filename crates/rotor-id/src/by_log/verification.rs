@@ -8,6 +8,7 @@ mod tests;
 
 use super::agreement::agreement_of;
 use super::differences::{Difference, POINTS_MIN, compared_point, near_rows, rounding_std};
+use super::not_verified::NotVerified;
 use hovertone_analysis::{MEAN_OF_MOTORS, RotorsHeard, TrackPoint, Verification, VerifiedRotor};
 
 /// Step of the coarse search of the offset, in s. *Numeric.*
@@ -29,6 +30,8 @@ const GAP_S_MAX: f64 = 1.0;
 /// Offsets this far away, and speeds that do not change, must be worse by this factor. *Decision.*
 const ELSEWHERE_S: f64 = 1.0;
 const ELSEWHERE_FACTOR: f64 = 1.2;
+/// Widest limits that tell an offset, in s. *Decision.*
+const GIVEN_S_MAX: f64 = 2.0;
 /// Ratios that a wrong order, wrong blades or wrong pole pairs make. *Physics.*
 const RATIOS: [f64; 9] = [0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// A ratio of speeds is one of these if it is nearer than this. *Decision.*
@@ -47,47 +50,6 @@ pub struct LoggedSpeeds<'a> {
     pub names: &'a [String],
     /// `speeds_rev_s[motor][row]`.
     pub speeds_rev_s: &'a [Vec<f64>],
-}
-
-/// Why nothing can be compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NotVerified {
-    /// No speed was heard.
-    #[error("no rotor was heard for long enough")]
-    NoTrack,
-    /// The log has fewer motors than rotors were heard.
-    #[error("{tracks} rotors were heard, but in the log only {motors} motors turn")]
-    TooFewMotors {
-        /// Heard rotors.
-        tracks: usize,
-        /// Motors of the log.
-        motors: usize,
-    },
-    /// Both never overlap for long enough.
-    #[error("the log is too short, or not of this recording: they share too little time")]
-    NoOverlap,
-    /// Both do not overlap for long enough at the given offsets.
-    #[error("at the offsets that --log-offset-s allows, the log and the recording share too little time")]
-    NoOverlapAtOffset,
-    /// The range of offsets is too wide.
-    #[error("the log or the recording is too long to try all offsets between their clocks")]
-    TooLong,
-}
-
-impl NotVerified {
-    /// What to do.
-    pub fn hint(self) -> &'static str {
-        match self {
-            Self::NoTrack => "check the recording with `hovertone speed`",
-            Self::TooFewMotors { .. } => "give the log of the same vehicle, or the number of rotors with --rotors",
-            Self::NoOverlap => "give the log of the same flight, at least half as long as the hover",
-            Self::NoOverlapAtOffset => {
-                "leave --log-offset-s out, or give limits that contain the right offset; the offset is added to the clock of the log"
-            }
-            Self::TooLong => "give limits of the offset in seconds: --log-offset-s LOW:HIGH",
-        }
-    }
 }
 
 /// Compares the tracks of rotors that are heard in some way with a log. `offsets_s` limits the offset, where it is known.
@@ -153,7 +115,8 @@ fn verification_from_log(
     Ok(Verification {
         offset_s,
         is_offset_told,
-        is_offset_given: offsets_s.is_some(),
+        // wide limits tell no offset
+        is_offset_given: offsets_s.is_some_and(|[low_s, high_s]| high_s - low_s <= GIVEN_S_MAX),
         better_offset_s,
         agreement: agreement_of(&rotors),
         clock_rate_share: comparison.clock_rate_share(offset_s),

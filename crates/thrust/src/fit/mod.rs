@@ -21,7 +21,7 @@ use crate::misfiled::{exchanged_rows, misfiled};
 use crate::outline::{LoadOutline, too_alike, warnings_of_masses, warnings_of_recordings};
 use crate::settings::ThrustSettings;
 use crate::speeds::{LoadSpeeds, TrialSpeeds};
-use crate::square_law::{ForceLaw, ForcePoint, LoadRange, PointVerdict, SquareLawFit, are_split, square_law_fit};
+use crate::square_law::{ForceLaw, ForcePoint, PointVerdict, SquareLawFit, are_split, square_law_fit};
 use crate::statistics::{mean, std, student_factor};
 use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
@@ -332,10 +332,8 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
     warnings.extend(exchanged);
     warnings.extend(ThrustWarning::of_uncertainty(fit.thrust_constant_n_s2, true));
     // rows that do not fit are why the law cannot be tested
-    let has_misfits = fit.points.iter().any(|point| point.fits == Some(false));
-    let explained = |warning: &ThrustWarning| {
-        has_misfits && matches!(warning, ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }))
-    };
+    let has_misfits = fit.points.iter().any(|point| point.fits == Some(false) && !point.is_gross);
+    let explained = |warning: &ThrustWarning| has_misfits && matches!(warning, ThrustWarning::NarrowLoadRange(_));
     let of_range =
         range_warnings(points, fit, are_split_points(points)).into_iter().filter(|warning| !explained(warning));
     warnings.extend(of_range.into_iter().filter(|warning| tells(warning, is_contradicted)));
