@@ -84,7 +84,8 @@ fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], termi
         some => format!("in {some} of the recordings, "),
     };
     if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
-        let what = format!("{place}hovertone found up to {count} rotors by itself, because their number is not given");
+        let up_to = if counts.iter().all(|rotors| *rotors == count) { "" } else { "up to " };
+        let what = format!("{place}hovertone found {up_to}{count} rotors by itself, because their number is not given");
         let hint = format!(
             "if your vehicle has {count} rotors, you need to do nothing; if not, give their number, as in --rotors 6, and --rotors 1 \
              where one runs alone"

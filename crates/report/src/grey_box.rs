@@ -200,8 +200,8 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     });
     let unexplained = record.unexplained().map(|fitted| {
         let what = format!(
-            "the model explains too little of this flight: the predicted speeds differ from the true ones by {} % (rms), and the speeds \
-            themselves change by {} % (rms)",
+            "the model explains too little of this flight: the predicted speeds differ from those of the flight by {} % (rms), and these \
+            change by {} % (rms)",
             significant(PERCENT * fitted.rms_share, 2),
             significant(PERCENT * fitted.change_share, 2)
         );
