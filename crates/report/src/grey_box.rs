@@ -200,7 +200,7 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     });
     let unexplained = record.unexplained().map(|fitted| {
         let what = format!(
-            "the model explains too little of this flight: the predicted speeds differ from those of the flight by {} % (rms), and these \
+            "the model explains too little of this flight: the predicted speeds differ from the speeds in the flight by {} % (rms), and these \
             change by {} % (rms)",
             significant(PERCENT * fitted.rms_share, 2),
             significant(PERCENT * fitted.change_share, 2)
