@@ -84,10 +84,9 @@ impl fmt::Display for TableNote {
                 write!(f, "rows left out because their speed or force is empty: {}", lines.len())
             }
             Self::Empty { lines } => {
-                let (noun, verb) = if lines.len() == 1 { ("line", "is") } else { ("lines", "are") };
-                let (their, numbers) =
-                    (if lines.len() == 1 { "its" } else { "their" }, lines.iter().map(u64::to_string));
-                let numbers = numbers.collect::<Vec<_>>().join(", ");
+                let (noun, verb, their) =
+                    if lines.len() == 1 { ("line", "is", "its") } else { ("lines", "are", "their") };
+                let numbers = lines.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
                 write!(f, "{noun} {numbers} {verb} left out: {their} speed or force is empty")
             }
             Self::AtRest { count, speed_rpm } => write!(

@@ -333,10 +333,9 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
     warnings.extend(ThrustWarning::of_uncertainty(fit.thrust_constant_n_s2, true));
     // rows that do not fit are why the law cannot be tested
     let has_misfits = fit.points.iter().any(|point| point.fits == Some(false) && !point.is_gross);
-    let explained = |warning: &ThrustWarning| has_misfits && matches!(warning, ThrustWarning::NarrowLoadRange(_));
-    let of_range =
-        range_warnings(points, fit, are_split_points(points)).into_iter().filter(|warning| !explained(warning));
-    warnings.extend(of_range.into_iter().filter(|warning| tells(warning, is_contradicted)));
+    let is_explained = |warning: &ThrustWarning| has_misfits && matches!(warning, ThrustWarning::NarrowLoadRange(_));
+    let of_range = range_warnings(points, fit, are_split_points(points)).into_iter();
+    warnings.extend(of_range.filter(|warning| tells(warning, is_contradicted) && !is_explained(warning)));
     warnings
 }
 

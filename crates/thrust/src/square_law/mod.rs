@@ -106,9 +106,7 @@ impl SquareLawFit {
         let left_out = self.shares.len() - count;
         (self.residual_max_share < ROUNDING_SHARE).then_some(NoScatter::Computed { left_out })
     }
-}
 
-impl SquareLawFit {
     /// By which factor the standard uncertainty of the constant is larger than the stated uncertainties of the points alone make it, because the
     /// points scatter more. `None` where it is not, and where no uncertainties are stated.
     pub fn widening(&self) -> Option<f64> {
