@@ -185,7 +185,7 @@ impl NotTold {
             }
             Self::TooManyRotors { .. } => "the rotors get numbers in place of names; rotor 1 is the fastest",
             Self::TooFewTracks { .. } => {
-                "rotors at nearly equal speeds cannot be separated; if their speeds differ, place the microphone nearer and record without compression"
+                "rotors at nearly equal speeds cannot be separated; if their speeds differ, place the microphone nearer"
             }
             Self::TooManyOffsets { .. } => "give narrower limits for the offset, in seconds: --log-offset-s LOW:HIGH",
             Self::NoOverlap => {

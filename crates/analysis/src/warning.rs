@@ -177,11 +177,10 @@ impl Warning {
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
-                "if fewer rotors turn, give their number, as in --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer and record \
-                without compression"
+                "if fewer rotors turn, give their number, as in --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer"
             }
             Self::RotorsNotApart { has_mean: false, .. } => {
-                "to separate them and get a smaller ±, place the microphone nearer and record without compression; rotors at equal speeds \
+                "to separate them and get a smaller ±, place the microphone nearer (compressed sound makes it harder); rotors at equal speeds \
                 cannot be separated"
             }
             Self::RotorsNotApart { .. } => {

@@ -53,7 +53,12 @@ pub(crate) fn vehicles_in(file: &TomlFile<'_>) -> Result<Vec<Vehicle>, Failure> 
                 OwnVehicleError::Quantity(_) => format!("correct this number; {SEE_EXAMPLE}"),
                 _ => SEE_EXAMPLE.to_owned(),
             };
-            refused(format!("[{id}]: {error}"), &hint)
+            let what = error.to_string();
+            let what = match what.strip_prefix("diameter_m") {
+                Some(rest) => format!("propeller_diameter_m{rest}"),
+                None => what,
+            };
+            refused(format!("[{id}]: {what}"), &hint)
         })?);
     }
     Ok(vehicles)

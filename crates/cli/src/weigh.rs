@@ -110,7 +110,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         let document = weighed_json(weighed.as_ref(), &warnings, &records).map_err(Failure::internal)?;
         terminal.data(&document)?;
     } else {
-        let said = |weighed: &WeighedHover| format!("{}{}", doubt.unwrap_or_default(), weighed_text(weighed));
+        let said =
+            |weighed: &WeighedHover| format!("{}{}", doubt.unwrap_or_default(), weighed_text(weighed, plan.model_kg));
         terminal.text(&weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), said))?;
     }
     Ok(ending_of(&records).max(if doubt.is_some() { Ending::Incomplete } else { Ending::Done }))

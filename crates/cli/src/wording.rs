@@ -10,15 +10,12 @@ const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
         "--from and --to",
         "from_s and to_s: add -o DIR, write them (in s) under the [[load]] in DIR/experiment.toml, and give this file to `hovertone identify`",
     ),
-    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] in DIR/experiment.toml, which -o DIR writes"),
-    ("--band", "band_hz under [tone] in DIR/experiment.toml, which -o DIR writes"),
-    ("--harmonics 1", "harmonics = 1 under [tone] in DIR/experiment.toml, which -o DIR writes"),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
     (
-        "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with \
-         --rotors; ",
-        "C_f uses the mean speed of all rotors, and its ± allows for this; ",
+        "the speed is the mean of all rotors, and its ± allows for this",
+        "C_f uses the mean speed of all rotors, and its ± allows for this",
     ),
+    ("if fewer rotors turn, give their number with --rotors; ", ""),
     OTHER_ROTORS_IN_FLIGHT,
     ("under [samples] in the experiment file", "under [samples] in DIR/experiment.toml, which -o DIR writes"),
     ("--mass-kg", "--mass"),

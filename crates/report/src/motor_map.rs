@@ -66,7 +66,12 @@ fn gains_table(record: &MotorRecord) -> TextTable {
     // no rotor turns backwards at the command 0: such a motor has a threshold
     let has_offsets = record.motors.iter().filter_map(told_of).any(|(_, offset_rev_s)| offset_rev_s >= 0.0);
     let offset = Column::numbers("line at command 0", "rev/s");
-    let mut columns = vec![Column::words("motor"), Column::words("command"), Column::numbers("gain", "rev/s per unit")];
+    // a command with the number of its motor tells nothing more
+    let is_of_other = |motor: &LoggedMotor| motor.command.as_ref().is_some_and(|command| *command != motor.name);
+    let has_names = record.motors.iter().any(is_of_other);
+    let mut columns = vec![Column::words("motor")];
+    columns.extend(has_names.then_some(Column::words("command")));
+    columns.push(Column::numbers("gain", "rev/s per unit"));
     columns.extend(has_offsets.then_some(offset));
     let mut shown = TextTable::new(columns);
     for motor in &record.motors {
@@ -78,8 +83,8 @@ fn gains_table(record: &MotorRecord) -> TextTable {
             (Some(command), Some((gain, offset_rev_s))) => {
                 let offset = if offset_rev_s < 0.0 { DASH.to_owned() } else { significant(offset_rev_s, DIGITS) };
                 let gain = with_uncertainty(gain.value, gain.std_uncertainty);
-                let cells = [motor.name.clone(), command.clone(), gain].into_iter();
-                shown.push(cells.chain(has_offsets.then_some(offset)).collect());
+                let cells = [Some(motor.name.clone()), has_names.then(|| command.clone()), Some(gain), has_offsets.then_some(offset)];
+                shown.push(cells.into_iter().flatten().collect());
             }
         }
     }

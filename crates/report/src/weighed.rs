@@ -62,8 +62,9 @@ pub fn weighed_json(
     Ok(serde_json::to_string_pretty(&document)? + "\n")
 }
 
-/// Mass and payload in grams, with their expanded uncertainties.
-pub fn weighed_text(weighed: &WeighedHover) -> String {
+/// Mass and payload in grams, with their expanded uncertainties. `listed_kg` is the mass of the vehicle in the list of vehicles, where nobody
+/// gave the mass of this one.
+pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
     let flights = if weighed.has_flight_scatter { "" } else { WITHOUT_FLIGHTS };
     let grams = |mass_kg: Estimate| {
         let mass = mass_kg.scaled(1e3);
@@ -93,8 +94,13 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
             let or_none = if is_none { "; there may be no payload, because the ± is larger" } else { "" };
             format!("payload: {}{or_none}\n", grams(payload_kg))
         }
-        None => "payload: not known, because the mass of the vehicle alone is not given (give it with --mass-kg)\n"
-            .to_owned(),
+        None => {
+            let give = match listed_kg {
+                Some(mass_kg) => format!("if it is {mass_kg} kg, as in the list of vehicles, give --mass-kg {mass_kg}"),
+                None => "give it with --mass-kg".to_owned(),
+            };
+            format!("payload: not known, because the mass of the vehicle alone is not given ({give})\n")
+        }
     };
     text
 }
@@ -107,13 +113,14 @@ mod tests {
     #[test]
     fn the_speed_has_no_more_digits_than_the_mass_allows() {
         let weighed = |std_kg: Option<f64>, has_flight_scatter: bool| {
-            weighed_text(&WeighedHover {
+            let weighed = WeighedHover {
                 mass_kg: Estimate { value: 0.462, std_uncertainty: std_kg, ending: Ending::Solved },
                 payload_kg: None,
                 speed: RotorSpeed::from_rpm(3820.1234),
                 recording_count: 5,
                 has_flight_scatter,
-            })
+            };
+            weighed_text(&weighed, Some(0.38))
         };
         // ± 0.6 % of the mass are ± 0.3 % of the speed, 12 rpm
         assert!(
@@ -122,5 +129,6 @@ mod tests {
         );
         assert!(weighed(None, true).starts_with("hovers at 3820 rpm"));
         assert!(weighed(Some(0.0014), false).contains("(k = 2, without the differences from flight to flight)"));
+        assert!(weighed(None, true).contains("if it is 0.38 kg, as in the list of vehicles, give --mass-kg 0.38)"));
     }
 }

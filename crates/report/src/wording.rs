@@ -18,6 +18,7 @@ impl Wording {
     pub const IN_EXPERIMENT: Self = Self {
         phrases: &[
             ("--from and --to", "from_s and to_s under [[load]]"),
+            ("give --band LOW:HIGH around its tone", "write the band around its tone as band_hz = [LOW, HIGH] under [tone]"),
             ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
             ("--harmonics 1", "harmonics = 1 under [tone]"),
             (

@@ -12,6 +12,8 @@ pub(crate) const HOVER_REV_S_MIN: f64 = 10.0;
 
 /// Diameters of so many metres and more were read in inches: the largest propellers of multirotors have 1.6 m. *Physics.*
 const INCHES_MIN: f64 = 3.0;
+/// Fewest teeth of the wheel on a rotor: pinions have six or more, and the gear halves the speed at least.
+const WHEEL_TEETH_MIN: u32 = 12;
 
 /// Two statements of which one must be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -134,6 +136,9 @@ pub enum Contradiction {
     /// A pinion with more teeth than the wheel.
     #[error("gear = {}:{} would turn the rotor faster than its motor: the two numbers are swapped", .0.pinion, .0.wheel)]
     GearSwapped(Gear),
+    /// A wheel with fewer teeth than any.
+    #[error("the gear has a wheel of {} teeth, and the wheel of a rotor has {WHEEL_TEETH_MIN} or more", .0.wheel)]
+    GearWheelTooSmall(Gear),
     /// A propeller whose tips would be too fast.
     #[error(
         "diameter_m = {diameter_m}: at {rev_s:.1} rev/s the blade tips would move at Mach {mach:.2}, and no multirotor exceeds Mach \
@@ -190,6 +195,10 @@ impl Contradiction {
             Self::GearSwapped(gear) => {
                 format!("the pinion on the motor comes first: write {}:{}", gear.wheel, gear.pinion)
             }
+            Self::GearWheelTooSmall(Gear { wheel, .. }) => format!(
+                "a gear is given by the numbers of teeth, that of the motor's pinion first, such as 8:69; if {wheel} is the number of blades, \
+                 give it as that, and no gear"
+            ),
             Self::TipsTooFast { diameter_m, .. } if *diameter_m >= INCHES_MIN => format!(
                 "the diameter is in metres, from tip to tip: for {diameter_m} inches write {:.3}",
                 INCH_M * diameter_m
@@ -209,9 +218,14 @@ impl Gear {
     /// Checks that the gear slows the rotor down, as each gear of a multirotor does.
     ///
     /// # Errors
-    /// [`Contradiction::GearSwapped`] where the pinion has more teeth than the wheel.
+    /// [`Contradiction::GearSwapped`] where the pinion has more teeth than the wheel, [`Contradiction::GearWheelTooSmall`] where the wheel has
+    /// fewer than any: then a ratio or the number of blades was meant.
     pub fn check(self) -> Result<(), Contradiction> {
-        if self.pinion > self.wheel { Err(Contradiction::GearSwapped(self)) } else { Ok(()) }
+        match () {
+            () if self.pinion > self.wheel => Err(Contradiction::GearSwapped(self)),
+            () if self.wheel < WHEEL_TEETH_MIN => Err(Contradiction::GearWheelTooSmall(self)),
+            () => Ok(()),
+        }
     }
 }
 
@@ -234,6 +248,9 @@ mod tests {
         Gear { pinion: 8, wheel: 69 }.check().unwrap();
         let swapped = Gear { pinion: 69, wheel: 8 }.check().unwrap_err();
         assert!(swapped.hint().ends_with("write 8:69"), "{}", swapped.hint());
+        let ratio = Gear { pinion: 1, wheel: 4 }.check().unwrap_err();
+        assert_eq!(ratio.to_string(), "the gear has a wheel of 4 teeth, and the wheel of a rotor has 12 or more");
+        assert!(ratio.hint().contains("if 4 is the number of blades"), "{}", ratio.hint());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Arguments that describe an experiment in place of its file: of `init` and `identify`.
 
-use super::groups::{gear, whole_number};
+use super::groups::{band, gear, whole_number};
 use super::thrust::PlaceArguments;
 use super::units::length_m;
 use clap::Args;
@@ -37,12 +37,29 @@ pub(crate) struct DraftArguments {
     /// vehicle's]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
+    /// Band in which the tone lies, in Hz [default: found in the sound]
+    #[arg(long, value_name = "LOW:HIGH", value_parser = band)]
+    pub(crate) band: Option<(f64, f64)>,
+    /// Number of harmonics (multiples of the tone) to follow; the tone itself is the first [default: 3]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
+    pub(crate) harmonics: Option<u32>,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
 }
 
 impl DraftArguments {
     /// Names of all arguments that `identify` refuses beside an experiment file.
-    pub(crate) const NAMES: [&str; 9] =
-        ["mass", "vehicle", "blades", "gear", "rotors", "diameter_m", "gravity_m_s2", "latitude_deg", "height_m"];
+    pub(crate) const NAMES: [&str; 11] = [
+        "mass",
+        "vehicle",
+        "blades",
+        "gear",
+        "rotors",
+        "diameter_m",
+        "band",
+        "harmonics",
+        "gravity_m_s2",
+        "latitude_deg",
+        "height_m",
+    ];
 }

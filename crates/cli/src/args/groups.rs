@@ -190,7 +190,7 @@ pub(crate) fn gear(text: &str) -> Result<Gear, String> {
 }
 
 /// "100:200".
-fn band(text: &str) -> Result<(f64, f64), String> {
+pub(crate) fn band(text: &str) -> Result<(f64, f64), String> {
     let edges = text.split_once(':').and_then(|(low, high)| Some((finite(low)?, finite(high)?)));
     edges.ok_or_else(|| "write the band as LOW:HIGH in Hz, such as 4000:4300".to_owned())
 }

@@ -27,6 +27,10 @@ pub(crate) struct Draft {
     pub(crate) gear: Option<Gear>,
     /// Diameter of a propeller.
     pub(crate) diameter_m: Option<f64>,
+    /// Band in which the tone lies, Hz.
+    pub(crate) band_hz: Option<(f64, f64)>,
+    /// Number of harmonics to follow.
+    pub(crate) harmonics: Option<u32>,
     /// Local gravity, or the place of the flights.
     pub(crate) gravity_m_s2: Option<f64>,
     pub(crate) latitude_deg: Option<f64>,
@@ -56,6 +60,8 @@ impl Draft {
             blades: arguments.blades,
             gear: arguments.gear,
             diameter_m: arguments.diameter_m,
+            band_hz: arguments.band,
+            harmonics: arguments.harmonics,
             gravity_m_s2: arguments.place.gravity_m_s2,
             latitude_deg: arguments.place.latitude_deg,
             height_m: arguments.place.height_m,

@@ -51,6 +51,7 @@ impl Draft {
             None => "\n# [air]                         # for the thrust coefficient C_T\n",
         };
         text += "# temperature_c = 20.0\n# pressure_hpa = 1013.0\n";
+        text += &self.tone_lines();
         let names = names_of(&self.loads);
         for (load, name) in self.loads.iter().zip(names) {
             text += &self.load_lines(load, &name);
@@ -88,6 +89,16 @@ impl Draft {
             text += "# height_m = 500.0              # above the sea\n";
         }
         text
+    }
+
+    /// The tone, where more is said of it than that of the blades or of the gear.
+    fn tone_lines(&self) -> String {
+        if self.band_hz.is_none() && self.harmonics.is_none() {
+            return String::new();
+        }
+        let band = self.band_hz.map(|(low, high)| line("band_hz", &format!("[{low}, {high}]"), "where the tone lies"));
+        let harmonics = self.harmonics.map(|count| line("harmonics", &count.to_string(), "multiples of the tone, itself the first"));
+        format!("\n[tone]\n{}{}", band.unwrap_or_default(), harmonics.unwrap_or_default())
     }
 
     fn load_lines(&self, load: &LoadDraft, name: &str) -> String {

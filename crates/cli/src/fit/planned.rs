@@ -29,6 +29,7 @@ pub(super) fn plan_campaign(
         rotor_count: Some(rotor_count),
         ..KnownRotor::default()
     };
+    flown.check_hover()?;
     let wish = PlanWish {
         wanted_share: asked.wanted_share,
         vehicle_mass_kg: mass_kg,
@@ -54,7 +55,6 @@ pub(super) fn plan_campaign(
         };
         Failure::usage(error.to_string(), hint)
     })?;
-    flown.check_hover()?;
     if arguments.json {
         terminal.data(&(serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"))?;
     } else {

@@ -107,6 +107,7 @@ fn blades_and_gear_are_those_of_the_vehicle() {
         &["rotors = 6", "\"ardrone\" has 4 rotors"],
     );
     refused_with(&["speed", "a.wav", "--gear", "69:8"], &["gear = 69:8", "swapped", "write 8:69"]);
+    refused_with(&["speed", "a.wav", "--gear", "4"], &["a wheel of 4 teeth", "if 4 is the number of blades"]);
     let folder = tempfile::tempdir().unwrap();
     let experiment = folder.path().join("experiment.toml");
     let load = "[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";

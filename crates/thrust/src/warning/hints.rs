@@ -82,7 +82,7 @@ impl ThrustWarning {
                 "do not use this constant: check the masses and which recording belongs to which load, then record each load five times"
             }
             Self::LoudestRotor => {
-                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression; the methods maximum_trace and gaussian never separate them"
+                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer; the methods maximum_trace and gaussian never separate them"
             }
         }
     }
