@@ -38,6 +38,8 @@ pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint};
 pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};
 pub use tone_family::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use uncertainty::{UncertaintySource, UncertaintyTerm};
-pub use verification::{Agreement, COVERAGE_OF_HALF, ComparedPoint, MEAN_OF_MOTORS, Verification, VerifiedRotor};
+pub use verification::{
+    Agreement, COVERAGE_OF_HALF, ComparedPoint, MEAN_OF_MOTORS, RIGHT_SHARE, Verification, VerifiedRotor,
+};
 pub use warning::{HEARD_SHARE_MIN, Warning};
 pub use weighed_speed::WeighedSpeed;

@@ -2,7 +2,7 @@
 
 /// Largest relative difference of heard and logged speeds at which order and clock are right: clocks of recorders are right to 0.01 %, telemetry to
 /// its rounding. *Decision.*
-const RIGHT_SHARE: f64 = 0.005;
+pub const RIGHT_SHARE: f64 = 0.005;
 
 /// Share of the points within their ± (k = 2) where the true ± is twice the stated: P(|z| < 1). Below it, sound and log are not of the same
 /// speeds. Of rotors that are separated, the measured coverage is 0.85 to 0.9 (`docs/verify.md`). *Decision.*

@@ -10,9 +10,10 @@ const EXPERIMENT: &str = "EXPERIMENT.toml";
 const NAMED_TWICE: &str = "each of the two flags alone tells which rotor is which: leave one of them out";
 const WITHOUT_AIR: &str = "--plan does not use the density of the air: leave the flags of the air out, and give them \
                            later, when you fit the table";
+const NOT_APART: &str = "--mean-only separates no rotors, so none gets a name: leave one of the two out";
 const PRINTED: &str = "--json prints the answer as JSON and nothing else: leave one of the two out";
 /// Two arguments, and why only one of them has a meaning.
-const KNOWN: [([&str; 2], &str); 19] = [
+const KNOWN: [([&str; 2], &str); 22] = [
     (["--gravity-m-s2", "--latitude-deg"], "both give the local gravity: leave one of them out"),
     (["--constant", "--constant-n-s2"], "both give the thrust constant: leave one of them out"),
     (
@@ -30,6 +31,9 @@ const KNOWN: [([&str; 2], &str); 19] = [
     (["--plan", "--temperature-c"], WITHOUT_AIR),
     (["--plan", "--pressure-hpa"], WITHOUT_AIR),
     (["--plan", "--humidity-percent"], WITHOUT_AIR),
+    (["--mean-only", "--log"], NOT_APART),
+    (["--mean-only", "--spin-up"], NOT_APART),
+    (["--mean-only", "--microphones"], NOT_APART),
     (["--spin-up", "--log"], NAMED_TWICE),
     (["--microphones", "--log"], NAMED_TWICE),
     (["--microphones", "--spin-up"], NAMED_TWICE),

@@ -109,6 +109,12 @@ fn change(
             return Ok(Ending::Done);
         }
     }
+    let ratio = rotor.thrust_constant_n_s2 / before.thrust_constant_n_s2;
+    if !LIKELY_CHANGE.contains(&ratio) {
+        let text = format!("the new constant is {} times the old constant of the model", fixed(ratio, 2));
+        let hint = "check that the results and the model belong to the same vehicle, and that the units are right";
+        terminal.warning(&Notice::new(text, hint), "");
+    }
     match &arguments.output {
         Some(output) => {
             Outputs::beside([&arguments.results, model], arguments.replace.force).write(output, &updated.text)?
@@ -120,14 +126,12 @@ fn change(
     }
     terminal.flush()?;
     terminal.say(&written(place));
+    if let Some(expanded_n_s2) = rotor.expanded_uncertainty_n_s2 {
+        let percent = fixed(100.0 * expanded_n_s2 / rotor.thrust_constant_n_s2, 1);
+        terminal.say(&format!("the constant is right within ± {percent} % (k = 2)"));
+    }
     if let Some(notice) = stale_comments(&updated.lines_with_old_number()) {
         terminal.warning(&notice, "");
-    }
-    let ratio = rotor.thrust_constant_n_s2 / before.thrust_constant_n_s2;
-    if !LIKELY_CHANGE.contains(&ratio) {
-        let text = format!("the new constant is {} times the old constant of the model", fixed(ratio, 2));
-        let hint = "check that the results and the model belong to the same vehicle, and that the units are right";
-        terminal.warning(&Notice::new(text, hint), "");
     }
     say_other_mass(before.mass_kg, rotor.mass_kg, terminal);
     Ok(Ending::Done)

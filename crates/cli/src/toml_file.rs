@@ -72,7 +72,7 @@ impl<'a> TomlFile<'a> {
 /// The faulty line with a mark under the fault, and the nearest name for a misspelt one.
 fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     if let Some((found, hint)) = other_kind(file) {
-        return Failure::failed(format!("this is {found}, but the {} is needed", file.kind), hint, file.path);
+        return Failure::failed(format!("this is {found}, and no {}", file.kind), hint, file.path);
     }
     let PlainFault { what, hint } = in_plain_words(error.message());
     let what = format!("the {} {what}", file.kind);
@@ -132,9 +132,15 @@ fn mass_of_load(error: &toml::de::Error, text: &str) -> Option<String> {
 fn other_kind(file: &TomlFile<'_>) -> Option<(&'static str, &'static str)> {
     let has = |section: &str| file.text.lines().any(|line| line.trim().starts_with(section));
     match file.kind {
-        "experiment file" if has("[[maneuver]]") => Some(("a scenario file", "give it to `hovertone simulate`")),
+        "experiment file" if has("[[maneuver]]") => Some((
+            "a scenario file",
+            "`hovertone simulate` takes this file; `hovertone init` writes an experiment file",
+        )),
         "experiment file" => None,
-        _ if has("[[load]]") => Some(("an experiment file", "give it to `hovertone identify`")),
+        _ if has("[[load]]") => Some((
+            "an experiment file",
+            "`hovertone identify` takes this file; the help of this command shows the file that it needs",
+        )),
         _ => None,
     }
 }

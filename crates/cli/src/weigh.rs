@@ -51,6 +51,7 @@ const NO_MASS: &str = "no mass: no speed was heard\n";
 
 /// What stands above a mass that no one should use.
 const DOUBTFUL_MASS: &str = "do not use this mass: the warnings say that the sound does not fit the rotors with which the constant was measured\n";
+const BELOW_VEHICLE: &str = "do not use this mass: it is less than the mass of the vehicle alone\n";
 const DOUBTFUL_CONSTANT: &str = "do not use this mass: the warnings say not to use the constant\n";
 
 /// Analyses all recordings and weighs.
@@ -87,7 +88,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     if let Some(weighed) = &weighed {
         let without_band = if arguments.tone.band.is_some() { "leave --band out; if the message stays, " } else { "" };
         let vehicle_kg = plan.scale.vehicle_mass_kg.map(|mass_kg| mass_kg.value).or(plan.model_kg);
-        let of_one = constant_of_one(arguments.constant_n_s2, plan.config.rotors.count, weighed, vehicle_kg);
+        let of_one = constant_of_one(arguments, plan.config.rotors.count, weighed, vehicle_kg);
         let refused = |error: WeighError, hint: String| {
             Failure::usage(error.to_string(), of_one.clone().unwrap_or_else(|| format!("{without_band}{hint}")))
         };
@@ -100,6 +101,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         foreign.is_some() || records.iter().any(|record| record.contradiction().is_some() && record.speed().is_some());
     let doubt = match is_sound_doubtful {
         true => Some(DOUBTFUL_MASS),
+        false if weighed.as_ref().is_some_and(WeighedHover::is_below_vehicle) => Some(BELOW_VEHICLE),
         false => results.as_ref().filter(|rotor| rotor.forbids_use).map(|_| DOUBTFUL_CONSTANT),
     };
     let of_mass = weighed.iter().filter_map(WeighedHover::warning).map(|warning| Notice::from(&warning));
@@ -119,17 +121,20 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
 
 /// The advice where a typed constant seems to be that of one rotor: with that of all rotors, the vehicle weighs about its own mass or somewhat more.
 fn constant_of_one(
-    typed_n_s2: Option<f64>,
+    arguments: &WeighArguments,
     rotor_count: u32,
     weighed: &WeighedHover,
     vehicle_kg: Option<f64>,
 ) -> Option<String> {
-    let (typed_n_s2, rotors) = (typed_n_s2.filter(|_| rotor_count > 1)?, f64::from(rotor_count));
+    let (typed_n_s2, rotors) = (arguments.constant_n_s2.filter(|_| rotor_count > 1)?, f64::from(rotor_count));
     let share = rotors * weighed.mass_kg.value / vehicle_kg?;
+    let of_std = arguments.constant_std_n_s2.map_or_else(String::new, |std_n_s2| {
+        format!(" and --constant-std-n-s2 {}", number_in_words(rotors * std_n_s2))
+    });
     OF_ONE_ROTOR.contains(&share).then(|| {
         format!(
             "is {typed_n_s2:e} the constant of one rotor? --constant-n-s2 is that of the whole vehicle: for {rotor_count} such rotors give \
-             --constant-n-s2 {}; if it is of the whole vehicle, check --mass-kg, and the blades or the gear",
+             --constant-n-s2 {}{of_std}; if it is of the whole vehicle, check --mass-kg, and the blades or the gear",
             number_in_words(rotors * typed_n_s2)
         )
     })

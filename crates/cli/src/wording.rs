@@ -1,6 +1,6 @@
 //! Advice in the words of a command that has no flag for what the advice asks.
 
-use hovertone_report::Wording;
+use hovertone_report::{ONE_BAND_FOR_ALL, Wording};
 
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
 pub(crate) const IN_PLACE_OF_FILE: Wording = Wording { has_loads: true, ..Wording::of_phrases(IN_PLACE_OF_KEYS) };
@@ -10,6 +10,7 @@ const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
         "--from and --to",
         "from_s and to_s: add -o DIR, write them (in s) under the [[load]] in DIR/experiment.toml, and give this file to `hovertone identify`",
     ),
+    ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
     (
         "the speed is the mean of all rotors, and its ± allows for this",

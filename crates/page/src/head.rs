@@ -60,7 +60,12 @@ mod tests {
         vec![
             does_not_fit(true, None),
             does_not_fit(false, Some(12_345.678)),
-            ThrustWarning::LoadsDisagree { names: names(), are_rows: false, has_added_mass: true },
+            ThrustWarning::LoadsDisagree {
+                names: names(),
+                are_rows: false,
+                has_added_mass: true,
+                masses_that_fit_kg: vec![12_345.678; 2],
+            },
             ThrustWarning::TrialFarFromOthers { load: name(), recording: recording(), thrust_share: -123.0 },
             ThrustWarning::TrialsInGroups { load: name(), groups_rev_s: vec![123.4; 4] },
             ThrustWarning::ConstantsDiffer { least: name(), most: name(), share: 123.0, stated_share: 12.3 },

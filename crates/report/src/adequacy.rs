@@ -114,16 +114,27 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
         ),
         _ if fit.laws.len() <= 1 && fit.points.len() > LAW_PARAMETERS => {
-            format!("no other law is compared with {}: {}\n", ForceLaw::Square.formula(), why_one_law(fit.range))
+            format!(
+                "no other law is compared with {}: {}\n",
+                ForceLaw::Square.formula(),
+                why_one_law(fit.range, has_misfits(fit))
+            )
         }
         _ => String::new(),
     }
 }
 
-/// Why the points tell nothing of other laws: forces that differ widely are not too alike.
-fn why_one_law(range: Option<LoadRange>) -> &'static str {
+/// Whether a point that the fit uses does not fit the others.
+fn has_misfits(fit: &SquareLawFit) -> bool {
+    fit.points.iter().any(|point| point.fits == Some(false) && !point.is_gross)
+}
+
+/// Why the points tell nothing of other laws: forces that differ widely are not too alike, and a point that does not fit hides the law.
+fn why_one_law(range: Option<LoadRange>, has_misfits: bool) -> &'static str {
     let is_wide = |range: LoadRange| range.force_ratio_needed.is_none() || range.force_ratio >= WIDE_FORCE_RATIO;
-    if range.is_some_and(is_wide) {
+    if has_misfits {
+        "the forces do not fit each other well enough to choose between laws"
+    } else if range.is_some_and(is_wide) {
         "the forces and speeds are too uncertain to choose between laws (their stated uncertainties, or their scatter, are too large)"
     } else {
         "the forces are too alike to choose between laws"
@@ -232,17 +243,19 @@ mod tests {
 
     #[test]
     fn forces_that_differ_widely_are_not_called_alike() {
+        let of_range = |range: Option<LoadRange>| why_one_law(range, false);
         let why = |force_ratio: f64, force_ratio_needed: Option<f64>| {
-            why_one_law(Some(LoadRange {
+            of_range(Some(LoadRange {
                 force_ratio,
                 intercept_std_share: 0.1,
                 shows_intercept: false,
                 force_ratio_needed,
             }))
         };
-        assert!(why_one_law(None).contains("too alike") && why(1.1, Some(1.4)).contains("too alike"));
+        assert!(of_range(None).contains("too alike") && why(1.1, Some(1.4)).contains("too alike"));
         for wide in [why(1.1, None), why(4.0, Some(6.0))] {
             assert!(wide.contains("too uncertain") && !wide.contains("alike"), "{wide}");
         }
+        assert!(why_one_law(None, true).contains("do not fit each other"));
     }
 }

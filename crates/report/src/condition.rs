@@ -1,6 +1,6 @@
 //! The shaft lines of the rotors as a table, without a diagnosis.
 
-use crate::number::{DASH, rounded};
+use crate::number::{DASH, fixed, rounded};
 use crate::recording::SpeedRecord;
 use crate::speed::name_of_rotor;
 use crate::table_lines::table_text;
@@ -66,7 +66,7 @@ fn row(name: String, condition: &RotorCondition) -> Vec<String> {
 fn level(line: &ShaftLine) -> String {
     match (line.level_db, line.noise_db) {
         (Some(level_db), _) => rounded(level_db, line.std_uncertainty_db),
-        (None, Some(noise_db)) => format!("< {noise_db:.0}"),
+        (None, Some(noise_db)) => format!("< {}", fixed(noise_db, 0)),
         (None, None) => DASH.to_owned(),
     }
 }

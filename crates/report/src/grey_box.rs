@@ -172,8 +172,8 @@ fn negative_delay(record: &GreyBoxRecord) -> Option<String> {
     };
     let delay = [Parameter::CommandDelay, Parameter::MeasuredDelay].into_iter().find(is_negative)?;
     Some(format!(
-        "{} is negative, which no delay is: the log knows the time of a command only to one row. If the delay is longer than the time between two \
-        log rows, the model does not fit",
+        "{} is negative, which no delay is. Where it is not longer than the time between two log rows, this is no fault: the log knows the time \
+        of a command only to one row. Where it is longer, the model does not fit",
         delay.in_words()
     ))
 }

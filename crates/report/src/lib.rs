@@ -116,4 +116,4 @@ pub use vehicles::{vehicles_json, vehicles_text};
 pub use verification::{VerificationRecord, small_plus_minus, verification_json, verification_text};
 pub use version::VERSION;
 pub use weighed::{weighed_json, weighed_text};
-pub use wording::Wording;
+pub use wording::{ONE_BAND_FOR_ALL, Wording};

@@ -102,8 +102,12 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
     let mut words = table_text(&text, width);
     if let Some(expanded) = heard.expanded_uncertainty_n_s2 {
         let percent = 100.0 * expanded / heard.thrust_constant_n_s2;
+        let first = match heard.hover_speed_rad_s {
+            Some(_) => "the speed that was heard",
+            None => "the speed at which its thrust carries the vehicle",
+        };
         words += &format!(
-            "the ± of the measured constant is {percent:.2} % (k = 2); the last column: the speed at which the measured vehicle would hover with the constant of the row\n"
+            "the ± of the measured constant is {percent:.2} % (k = 2); the last column: in the first row {first}; in the others the speed at which the measured vehicle would hover with the constant of the row\n"
         );
     }
     words

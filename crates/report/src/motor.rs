@@ -25,12 +25,13 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
-        text += "the rows of this log are too far apart for a time constant; log the speeds every 100 ms or faster: every 20 ms is good\n";
+        text += "the rows of this log are too far apart for a time constant; log the speeds every 20 ms or faster\n";
     } else if !has_steps {
         text += match record.source {
             MotorSource::Log => "no step: the speed never changes from one steady value to another\n",
             MotorSource::Sound(_) => {
-                "no step is heard: the tone that is followed never changes from one steady value to another\n"
+                "no step is heard: the tone that is followed never changes from one steady value to another; record a bench run whose command \
+                 steps, and hold each level for a second or longer\n"
             }
         };
     }

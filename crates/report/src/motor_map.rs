@@ -30,7 +30,7 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
     if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
         text += "gain: change of the steady speed per unit of the command; it holds only between the smallest and the \
-        largest of these commands\n";
+        largest of these commands, without the saturated ones\n";
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
         text += "no motor is held at two different commands, so each gain comes from all log rows. The speed lags behind \
@@ -83,7 +83,12 @@ fn gains_table(record: &MotorRecord) -> TextTable {
             (Some(command), Some((gain, offset_rev_s))) => {
                 let offset = if offset_rev_s < 0.0 { DASH.to_owned() } else { significant(offset_rev_s, DIGITS) };
                 let gain = with_uncertainty(gain.value, gain.std_uncertainty);
-                let cells = [Some(motor.name.clone()), has_names.then(|| command.clone()), Some(gain), has_offsets.then_some(offset)];
+                let cells = [
+                    Some(motor.name.clone()),
+                    has_names.then(|| command.clone()),
+                    Some(gain),
+                    has_offsets.then_some(offset),
+                ];
                 shown.push(cells.into_iter().flatten().collect());
             }
         }

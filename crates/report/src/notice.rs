@@ -71,7 +71,10 @@ impl From<&ThrustWarning> for Notice {
 /// The notice on one line, with its hint.
 impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (hint: {})", self.text, self.hint)
+        match self.hint.as_str() {
+            "" => f.write_str(&self.text),
+            hint => write!(f, "{} (hint: {hint})", self.text),
+        }
     }
 }
 

@@ -241,7 +241,10 @@ fn line_of_rotor(family: &ToneFamily, rotor: &ToneFamily) -> Option<String> {
     let is_near = (ratio / harmonic - 1.0).abs() < NEAR_ROTOR_SHARE && OTHER_HARMONICS.contains(&harmonic);
     is_near.then(|| {
         let rev_s = significant(family.fundamental_hz / (harmonic * blades), DIGITS);
-        format!("perhaps harmonic {harmonic} of another rotor ({}: {rev_s} rev/s)", reading.meaning)
+        format!(
+            "perhaps {harmonic} times the tone of another rotor of the same vehicle ({}: {rev_s} rev/s)",
+            reading.meaning
+        )
     })
 }
 

@@ -6,7 +6,7 @@ use crate::printable::printable;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::version::VERSION;
-use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, MEAN_OF_MOTORS, Verification, percent_in_words};
+use hovertone_analysis::{Agreement, COVERAGE_OF_HALF, MEAN_OF_MOTORS, RIGHT_SHARE, Verification, percent_in_words};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -110,8 +110,9 @@ fn verdict_in_words(found: &Verification) -> String {
     let small = small_plus_minus(found);
     let small = small.map_or(String::new(), |Notice { text, hint, .. }| format!("\n±: not passed; {text}; {hint}"));
     format!(
-        "passed: the number of blades (or the gear) and the clock are right; the mean of the heard speeds differs \
-        from the log by {percent} %{small}"
+        "passed: the number of blades (or the gear) is right, and the clock is right within {} %; the mean of the heard speeds differs \
+        from the log by {percent} %{small}",
+        100.0 * RIGHT_SHARE
     )
 }
 
@@ -359,8 +360,9 @@ mod tests {
     fn a_small_plus_minus_is_no_silent_pass() {
         let verdict = |coverage, agreement| verdict_in_words(&verified(coverage, agreement));
         assert!(
-            verdict(0.95, Agreement::AsStated)
-                .starts_with("passed: the number of blades (or the gear) and the clock are right")
+            verdict(0.95, Agreement::AsStated).starts_with(
+                "passed: the number of blades (or the gear) is right, and the clock is right within 0.5 %;"
+            )
         );
         for (agreement, word) in
             [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]

@@ -91,7 +91,13 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
         Some(payload_kg) => {
             let is_none =
                 expanded(payload_kg.std_uncertainty).is_some_and(|expanded| expanded > payload_kg.value.abs());
-            let or_none = if is_none { "; there may be no payload, because the ± is larger" } else { "" };
+            let or_none = match is_none {
+                true => "; there may be no payload, because the ± is larger",
+                false if payload_kg.value < 0.0 => {
+                    "; no payload weighs less than nothing: check the constant, the mass of the vehicle, and the blades or the gear"
+                }
+                false => "",
+            };
             format!("payload: {}{or_none}\n", grams(payload_kg))
         }
         None => {

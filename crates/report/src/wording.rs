@@ -13,12 +13,15 @@ pub struct Wording {
     pub has_loads: bool,
 }
 
+/// In place of the advice to hear one rotor in a band: the loads of an experiment have their tones in different bands.
+pub const ONE_BAND_FOR_ALL: &str = "; a nearer microphone may help to separate the rotors";
+
 impl Wording {
     /// For an experiment file, in which facts have keys.
     pub const IN_EXPERIMENT: Self = Self {
         phrases: &[
             ("--from and --to", "from_s and to_s under [[load]]"),
-            ("give --band LOW:HIGH around its tone", "write the band around its tone as band_hz = [LOW, HIGH] under [tone]"),
+            ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
             ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
             ("--harmonics 1", "harmonics = 1 under [tone]"),
             (

@@ -81,6 +81,18 @@ pub(crate) fn mass_text(mass_kg: f64) -> String {
     if grams < 100.0 { format!("{grams:.1} g") } else { format!("{grams:.0} g") }
 }
 
+/// Of two loads that do not fit each other: the mass of either with which they would.
+pub(crate) fn either_mass_text(names: &[String], masses_that_fit_kg: &[f64]) -> String {
+    match (names, masses_that_fit_kg) {
+        ([one, other], [of_one_kg, of_other_kg]) => format!(
+            "; they would if \"{one}\" had a mass of {}, or \"{other}\" one of {}",
+            mass_text(*of_one_kg),
+            mass_text(*of_other_kg)
+        ),
+        _ => String::new(),
+    }
+}
+
 /// A ratio with two digits.
 pub(crate) fn ratio_text(ratio: f64) -> String {
     let decimals = (1.0 - ratio.log10().floor()).clamp(0.0, 3.0) as usize;
@@ -111,7 +123,7 @@ pub(crate) fn misfit_text(
     let left_out = if is_left_out {
         "; it is left out: its constant is more than twice, or less than half, the constant of the others"
     } else {
-        ""
+        "; the fit still uses it"
     };
     format!("{of} does not fit the others{would}{left_out}")
 }

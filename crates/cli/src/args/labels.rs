@@ -11,7 +11,7 @@ const CLOCK_OFFSET_S_MAX: f64 = 1e10;
 #[command(next_help_heading = "Which rotor is which")]
 pub(crate) struct LabelArguments {
     /// Log of the same flight (PX4, ArduPilot, Betaflight or CSV), with speeds or commands of the motors, or body rates
-    #[arg(long, value_name = "FILE", value_parser = typed_path())]
+    #[arg(long, value_name = "FILE", value_parser = typed_path(), conflicts_with = "mean_only")]
     pub(crate) log: Option<PathBuf>,
     /// Limits of the offset: the time to add to the log's clock to get that of the recording, -5:5 in seconds or -0:05..0:05 [default:
     /// none]
@@ -21,13 +21,13 @@ pub(crate) struct LabelArguments {
     #[arg(long, value_name = "AXES", requires = "log")]
     pub(crate) log_axes: Option<BodyAxes>,
     /// Sequence in which the motors start, one by one, at the beginning of the recording: front-left,…; or 1,2,…
-    #[arg(long, value_name = "ROTOR,ROTOR,…", value_delimiter = ',', conflicts_with = "log")]
+    #[arg(long, value_name = "ROTOR,ROTOR,…", value_delimiter = ',', conflicts_with_all = ["log", "mean_only"])]
     pub(crate) spin_up: Option<Vec<String>>,
     /// Where the four rotors stand [default: the vehicle's]
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,
     /// File with the position of the microphone of each channel: loudness and delay of the sound show which rotor is which
-    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"], value_parser = typed_path())]
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up", "mean_only"], value_parser = typed_path())]
     pub(crate) microphones: Option<PathBuf>,
 }
 

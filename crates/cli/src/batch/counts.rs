@@ -101,7 +101,7 @@ impl fmt::Display for Counts {
             write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }
         if self.cut_short > 0 {
-            write!(f, "; {} of them end too early", self.cut_short)?;
+            write!(f, "; {} of them {} too early", self.cut_short, if self.cut_short == 1 { "ends" } else { "end" })?;
         }
         Ok(())
     }

@@ -33,6 +33,14 @@ pub(super) enum Reference {
     Tone { hz: f64, std_share: f64 },
 }
 
+impl Reference {
+    /// Standard uncertainty of the number, as a share; 0 where none is given.
+    fn std_share(self) -> f64 {
+        let (Self::Speed { std_share, .. } | Self::Tone { std_share, .. }) = self;
+        std_share
+    }
+}
+
 /// What was heard.
 #[derive(Clone, Copy)]
 pub(super) struct HeardSpeed {
@@ -69,10 +77,16 @@ impl Comparison {
             let value = self.heard.speed.rev_s() * factor;
             with_uncertainty(value, self.heard.std_rev_s.map(|std| std * factor))
         };
+        let known = |value: f64, std_share: f64, unit: &str| match std_share > 0.0 {
+            true => format!("{} {unit}", with_uncertainty(value, Some(std_share * value))),
+            false => format!("{value} {unit}, taken as exact"),
+        };
         match self.reference {
-            Reference::Speed { rpm, .. } => (format!("{rpm} rpm"), format!("{} rpm", in_unit(SECONDS_PER_MINUTE))),
-            Reference::Tone { hz, .. } => {
-                (format!("{hz} Hz"), format!("{} Hz", in_unit(self.heard.order.lines_per_turn())))
+            Reference::Speed { rpm, std_share } => {
+                (known(rpm, std_share, "rpm"), format!("{} rpm", in_unit(SECONDS_PER_MINUTE)))
+            }
+            Reference::Tone { hz, std_share } => {
+                (known(hz, std_share, "Hz"), format!("{} Hz", in_unit(self.heard.order.lines_per_turn())))
             }
         }
     }
@@ -89,8 +103,7 @@ impl Comparison {
 
     /// Whether the known number has more of the ± than the heard one.
     fn is_known_the_less_exact(&self) -> bool {
-        let (Reference::Speed { std_share, .. } | Reference::Tone { std_share, .. }) = self.reference;
-        std_share >= self.heard.std_rev_s.unwrap_or(0.0) / self.heard.speed.rev_s()
+        self.reference.std_share() >= self.heard.std_rev_s.unwrap_or(0.0) / self.heard.speed.rev_s()
     }
 
     /// The band around the tone that the known speed and the given order mean.
@@ -305,8 +318,10 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     } else if check.is_significant() {
         let decimals = correction_decimals(check.expanded_ppm());
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
+        let is_exact = comparison.reference.std_share() == 0.0;
+        let right = if is_exact { "exact (--known-std-ppm gives its uncertainty)" } else { "right to its ±" };
         format!(
-            "correction of the clock, if the known number is right to its ±: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
+            "correction of the clock, if the known number is {right}: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
              [recorder]\n  clock_correction_ppm = {ppm}\n  \
              clock_ppm = {}  # error that may remain: clocks change with temperature\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)

@@ -125,7 +125,7 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress)
     if record.as_ref().and_then(SpeedRecord::analysis).is_some_and(hears_several) {
         let heard = record.as_ref().and_then(|record| Some(record.speed()?.speed));
         let heard = heard.and_then(|heard| heard_beside_known(reference, heard)).unwrap_or_default();
-        return undecided(SEVERAL_ROTORS, format!("{SEVERAL_IN_WORDS}{heard}; {RECORD_ONE}"));
+        return undecided(SEVERAL_ROTORS, format!("{SEVERAL_IN_WORDS}; {RECORD_ONE}{heard}"));
     }
     if let Some(record) = record.as_ref().filter(|record| record.is_ambiguous()) {
         return undecided(
@@ -258,8 +258,8 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
         None => {
             let reason = format!(
                 "no clear tone that lasts 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, \
-                 record the tone louder and without other sound, hear a longer part (--from, --to), or give another range \
-                 with --band LOW:HIGH",
+                 record the tone louder, longer and without other sound, or give another range with --band LOW:HIGH; for the tone of a rotor, \
+                 describe the rotor, as with --blades 2",
                 band_hz.start, band_hz.end
             );
             ("no_line", Some(reason), Ending::Incomplete)

@@ -97,7 +97,9 @@ impl Draft {
             return String::new();
         }
         let band = self.band_hz.map(|(low, high)| line("band_hz", &format!("[{low}, {high}]"), "where the tone lies"));
-        let harmonics = self.harmonics.map(|count| line("harmonics", &count.to_string(), "multiples of the tone, itself the first"));
+        let harmonics = self
+            .harmonics
+            .map(|count| line("harmonics", &count.to_string(), "multiples of the tone, itself the first"));
         format!("\n[tone]\n{}{}", band.unwrap_or_default(), harmonics.unwrap_or_default())
     }
 

@@ -34,6 +34,7 @@ pub(super) fn table_failure(error: &TableError, path: &Path) -> Failure {
         TableError::NoUnit { .. } => "write the unit into the header: thrust_g, thrust_n, thrust_kg or thrust_lbf",
         TableError::Csv(error) => error.hint(),
         TableError::HeaderAlone => "write a row for each measurement below the header",
+        TableError::EmptyStd { .. } => "write the uncertainty of this row, remove the row, or remove the column",
         TableError::NoRow => {
             "look at the columns of speed and force: without a tachometer or a scale, a table has only zeros or empty \
              cells there"
@@ -111,9 +112,10 @@ pub(super) fn without_scatter(reason: NoScatter, group: &StandGroup, table: &Sta
         }
         _ => (String::new(), "give measured rows, not calculated rows".to_owned()),
     };
+    let name = &group.name;
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
     // which columns are read is another matter
-    let of_rows = table.notes.iter().filter(|note| !matches!(note, TableNote::Rivals { .. }));
+    let of_rows = table.notes.iter().filter(|note| note.is_of(name) && !matches!(note, TableNote::Rivals { .. }));
     let notes: String = of_rows.map(|note| format!("; {note}")).collect();
     Failure::Usage {
         what: format!("{group}{reason}{count}{notes}"),

@@ -164,9 +164,18 @@ fn fitted_table(
         .or_else(|| too_large_notice(per_rotor))
         .or_else(|| too_strong_notice(group, per_rotor, plan.given_rotors.is_some()))
         .filter(|_| coefficients.is_none());
+    // forces that no propeller has are in a wrong unit, and their stated uncertainties too
+    let is_too_strong = too_strong.is_some();
+    let is_explained = |warning: &&ThrustWarning| {
+        is_too_strong && matches!(warning, ThrustWarning::LoadsDisagree { are_rows: true, .. })
+    };
     let worst = WorstRow::of(&points, &fit);
     let std_columns = if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] };
-    let of_table = table.notes.iter().map(|note| Notice::new(note.to_string(), note.hint()));
+    let of_table = table
+        .notes
+        .iter()
+        .filter(|note| note.is_of(&group.name))
+        .map(|note| Notice::new(note.to_string(), note.hint()));
     let notes = rotors_notice(table, is_weighed, plan).into_iter().chain(of_table);
     Ok(FittedTable {
         file: path.display().to_string(),
@@ -183,10 +192,15 @@ fn fitted_table(
         figure_of_merit,
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
         forbids_use: warnings.iter().any(ThrustWarning::forbids_use),
-        is_incomplete: too_strong.is_some() || warnings.iter().any(ThrustWarning::makes_incomplete),
+        is_incomplete: is_too_strong || warnings.iter().any(ThrustWarning::makes_incomplete),
         notices: notes
             .chain(too_strong)
-            .chain(warnings.iter().map(|warning| notice_of(warning, std_columns, worst.as_ref())))
+            .chain(
+                warnings
+                    .iter()
+                    .filter(|warning| !is_explained(warning))
+                    .map(|warning| notice_of(warning, std_columns, worst.as_ref())),
+            )
             .collect(),
         fit,
     })

@@ -58,7 +58,7 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String], worst: Optio
             let zero = if *law == ForceLaw::SquareWithIntercept { "did the scale show 0 at rest? If so, " } else { "" };
             let off = signed(100.0 * share, 1);
             let hint = format!(
-                "{zero}simulators use F = C_f ω², which is {off} % off at {name}: use C_f only if this is near enough, and else the preferred law"
+                "{zero}simulators use F = C_f ω², which is {off} % off at {name} of the table: use C_f only if this is near enough, and else the preferred law"
             );
             Notice::new(warning.to_string(), hint)
         }

@@ -120,6 +120,7 @@ fn wishes_of(experiment: &Experiment, is_typed: bool) -> Vec<Notice> {
         matches!(load.force, Force::Weight { gravity_std_m_s2, .. } if gravity_std_m_s2 >= Gravity::UNKNOWN.std_m_s2)
     });
     let loads = experiment.loads.len();
+    let is_repeated = experiment.loads.iter().any(|load| load.recordings.len() > 1);
     let few = format!(
         "{} are only a weak test of the law F = C_f ω²: {LOADS_WANTED} loads or more are better",
         counted(loads, "load")
@@ -154,7 +155,12 @@ fn wishes_of(experiment: &Experiment, is_typed: bool) -> Vec<Notice> {
                 "write [air] with temperature_c and pressure_hpa into the experiment file",
             ),
         ),
-        (loads == 1 || loads >= LOADS_WANTED, few.as_str(), "add a heavier load: the ± becomes smaller too"),
+        // with one recording each, a warning says that the law cannot be tested at all
+        (
+            loads == 1 || loads >= LOADS_WANTED || !is_repeated,
+            few.as_str(),
+            "add a heavier load: the ± becomes smaller too",
+        ),
     ]
     .into_iter()
     .filter(|(is_there, ..)| !is_there)

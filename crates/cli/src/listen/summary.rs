@@ -132,9 +132,10 @@ impl LiveSummary {
         if self.is_open() {
             words += &format!("; if a rotor sounds, {}", advice.which_is_right());
         } else if self.settled_count > 0 && !self.is_held() {
-            let held_s_min = fixed(self.held_s_min, 0);
+            let (held_s, held_s_min) = (fixed(self.part_s(self.held_count_max), 1), fixed(self.held_s_min, 0));
             words += &format!(
-                "; a mean needs one speed for {held_s_min} s without a gap: hover for longer, or place the microphone nearer"
+                ", and for {held_s} s without a gap; a mean needs {held_s_min} s without a gap, or most of the sound. So short a \
+                 speed may come from another sound; if it is a rotor, hold one speed for longer, or place the microphone nearer"
             );
         }
         if let Some(contradiction) = self.contradiction().filter(|_| self.is_clear()) {

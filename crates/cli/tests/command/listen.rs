@@ -75,7 +75,11 @@ fn sound_without_a_rotor_has_no_mean() {
             "BACKGROUND_001.wav",
             "several speeds were possible; if a rotor sounds, give --diameter-m",
         ),
-        ("real", "BACKGROUND_006.flac", "a mean needs one speed for 3 s without a gap: hover for longer, or place"),
+        (
+            "real",
+            "BACKGROUND_006.flac",
+            "a mean needs 3 s without a gap, or most of the sound. So short a speed may come from another sound",
+        ),
     ] {
         let Some(folder) = recordings(folder) else { return };
         let file = folder.join(file);

@@ -324,17 +324,17 @@ fn an_experiment_and_a_scenario_are_told_from_each_other() {
     fs::write(&scenario, "duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n").unwrap();
     let flown = hovertone(&["simulate", text(&experiment), "-o", text(&folder.path().join("out"))]).ends_with(1);
     assert!(
-        flown.stderr.contains(
-            "this is an experiment file, but the scenario file is needed (hint: give it to `hovertone identify`"
-        ),
+        flown
+            .stderr
+            .contains("this is an experiment file, and no scenario file (hint: `hovertone identify` takes this file"),
         "{}",
         flown.stderr
     );
     let heard = hovertone(&["identify", text(&scenario)]).ends_with(1);
     assert!(
-        heard.stderr.contains(
-            "this is a scenario file, but the experiment file is needed (hint: give it to `hovertone simulate`"
-        ),
+        heard
+            .stderr
+            .contains("this is a scenario file, and no experiment file (hint: `hovertone simulate` takes this file"),
         "{}",
         heard.stderr
     );

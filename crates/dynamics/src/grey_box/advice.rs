@@ -87,7 +87,8 @@ fn alike(correlations: &[Correlation]) -> Option<Advice> {
             in_list(&names, "and"),
             format!("{strongest:.2}").replace('-', "−")
         ),
-        hint: "fly a minute of doublets (stick one way, then the other) in roll, pitch, yaw and climb, half of them 0.2 s and half 0.6 s long"
+        hint: "fly doublets (stick to one side, then to the other) for longer, in roll, pitch, yaw and climb, half of them with 0.2 s for each \
+               side and half with 0.5 s"
             .to_owned(),
     })
 }
@@ -103,8 +104,7 @@ fn measurement(axis: Axis) -> &'static str {
 
 fn doublet(axis: Axis) -> String {
     format!(
-        "fly more {} doublets (stick one way, then the other) with a large command, half of them 0.2 s and half 0.6 s \
-        long",
+        "fly more {} doublets (stick to one side, then to the other) with a large command, half of them with 0.2 s for each side and half with 0.5 s",
         axis.in_words()
     )
 }

@@ -41,6 +41,10 @@ pub(super) struct Column {
     pub(super) lacks_unit: bool,
     /// SI units per unit of the column.
     pub(super) si_per_unit: f64,
+    /// Whether the column is a standard uncertainty in percent of the measured value; then `si_per_unit` is 0.01.
+    pub(super) is_share: bool,
+    /// Whether the column is a standard uncertainty of which the header does not say the quantity.
+    pub(super) lacks_quantity: bool,
 }
 
 impl Column {
@@ -52,6 +56,12 @@ impl Column {
     /// Whether the header says that the column is a torque.
     pub(super) fn names_torque(&self) -> bool {
         words_of(&self.header.to_lowercase()).any(|word| word == "torque")
+    }
+
+    /// Whether the header says Hz, and not turns: it may be the frequency of a tone.
+    pub(super) fn is_in_hz(&self) -> bool {
+        let lower = self.header.to_lowercase();
+        words_of(&lower).any(|word| word == "hz") && !words_of(&lower).any(|word| ["rev", "rps"].contains(&word))
     }
 
     /// Whether the header says that the rotor is meant, and not the motor.
@@ -73,7 +83,8 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
         let meaning = meaning_of(header);
         let known = match meaning {
             Meaning::Known(quantity, si_per_unit) => Some((quantity, si_per_unit)),
-            Meaning::UnknownUnit | Meaning::Other => None,
+            Meaning::Share(quantity) => Some((quantity, 0.01)),
+            Meaning::UnknownUnit | Meaning::StdOfUnknown | Meaning::Other => None,
         };
         let cells = || records.iter().filter_map(|record| record.get(index));
         let is_word = |cell: &str| !cell.is_empty() && cell.replacen(',', ".", 1).parse::<f64>().is_err();
@@ -83,6 +94,8 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
             quantity: known.map(|(quantity, _)| quantity),
             is_words: known.is_none() && !records.is_empty() && cells().all(is_word),
             lacks_unit: matches!(meaning, Meaning::UnknownUnit),
+            lacks_quantity: matches!(meaning, Meaning::StdOfUnknown),
+            is_share: matches!(meaning, Meaning::Share(_)),
             si_per_unit: known.map_or(1.0, |(_, si_per_unit)| si_per_unit),
         }
     };
@@ -94,8 +107,12 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
 enum Meaning {
     /// A quantity, and the number of SI units per unit.
     Known(Quantity, f64),
+    /// The standard uncertainty of a quantity, in percent of it.
+    Share(Quantity),
     /// A thrust or a torque with an unknown unit, or without a unit.
     UnknownUnit,
+    /// A standard uncertainty in percent, of whatever.
+    StdOfUnknown,
     /// Any other column.
     Other,
 }
@@ -134,6 +151,9 @@ fn meaning_of(header: &str) -> Meaning {
     let lower = header.to_lowercase().replace(['²', '^'], "2");
     let words: Vec<&str> = words_of(&lower).collect();
     let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
+    if has(&STD) && (has(&["percent"]) || lower.contains('%')) {
+        return share_of(&words);
+    }
     if has(&NO_MEASUREMENT) {
         return Meaning::Other;
     }
@@ -181,6 +201,18 @@ fn meaning_of(header: &str) -> Meaning {
         Meaning::Known(Quantity::Current, if has(&["ma"]) { 1e-3 } else { 1.0 })
     } else {
         Meaning::Other
+    }
+}
+
+/// The meaning of a standard uncertainty in percent.
+fn share_of(words: &[&str]) -> Meaning {
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
+    match () {
+        () if has(&["thrust", "lift", "force"]) => Meaning::Share(Quantity::ThrustStd),
+        () if has(&["mass", "weight", "load"]) => Meaning::Share(Quantity::MassStd),
+        () if has(&["rpm", "speed", "omega", "rps"]) => Meaning::Share(Quantity::SpeedStd),
+        () if has(&["torque", "power", "voltage", "current"]) => Meaning::Other,
+        () => Meaning::StdOfUnknown,
     }
 }
 

@@ -24,6 +24,14 @@ pub enum TableError {
         /// Header of the column.
         column: String,
     },
+    /// A row without a standard uncertainty, where other rows have one.
+    #[error("line {line}, column \"{column}\": the cell is empty, but other rows have an uncertainty there")]
+    EmptyStd {
+        /// Line, counted from 1.
+        line: u64,
+        /// Header of its column.
+        column: String,
+    },
     /// A number out of range.
     #[error("line {line}, column \"{column}\": {} is {fault}", number_in_words(*value))]
     OutOfRange {

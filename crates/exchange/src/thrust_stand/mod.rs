@@ -123,19 +123,23 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         })?;
     let groups_by = grouping_columns(&columns, &records);
     let reader = RowReader { csv: &csv, columns: &columns, groups_by, speed, force };
-    let (mut rows, mut empty): (Vec<GroupedRow>, Vec<u64>) = (Vec::new(), Vec::new());
+    let (mut rows, mut empty): (Vec<GroupedRow>, Vec<(String, u64)>) = (Vec::new(), Vec::new());
     for record in &records {
+        let group = reader.group(record);
         match reader.row(record)? {
-            Some(row) => rows.push(GroupedRow { group: reader.group(record), row }),
-            None => empty.push(line_of(record)),
+            Some(row) => rows.push(GroupedRow { group, row }),
+            None => empty.push((group, line_of(record))),
         }
     }
     plausible::check(&rows, MeasuredColumns { speed, force })?;
     let unit_missing = columns.iter().filter(|column| column.lacks_unit);
     let mut notes: Vec<TableNote> =
         unit_missing.map(|column| TableNote::UnitMissing { column: column.header.clone() }).collect();
+    let of_nothing = columns.iter().filter(|column| column.lacks_quantity);
+    notes.extend(of_nothing.map(|column| TableNote::QuantityMissing { column: column.header.clone() }));
     notes.extend(rivals(&csv, &columns, &records, [speed, force]));
-    notes.extend((!empty.is_empty()).then_some(TableNote::Empty { lines: empty }));
+    notes.extend(speed.is_in_hz().then(|| TableNote::SpeedInHz { column: speed.header.clone() }));
+    notes.extend(empty_notes(empty));
     turn_round(&mut rows, &mut notes);
     leave_out_resting(&mut rows, &mut notes);
     if rows.is_empty() {
@@ -153,6 +157,10 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         let column = columns.iter().find(|column| column.quantity == Some(quantity))?;
         Some(column.header.clone())
     };
+    for group in &groups {
+        check_stds(group, header_of(force_std), |row| row.force_std)?;
+        check_stds(group, header_of(Quantity::SpeedStd), |row| row.speed_std_rad_s)?;
+    }
     Ok(StandTable {
         std_columns: [force_std, Quantity::SpeedStd].into_iter().filter_map(header_of).collect(),
         groups,
@@ -161,6 +169,19 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         rotor_count: rotors_in(&force.header).or_else(|| rotors_running(&columns, &records)),
         notes,
     })
+}
+
+/// Checks that all rows of a group state an uncertainty, or none: a row without one would count as exact.
+fn check_stds(
+    group: &StandGroup,
+    header: Option<String>,
+    std: impl Fn(&StandRow) -> Option<f64>,
+) -> Result<(), TableError> {
+    let Some(column) = header.filter(|_| group.rows.iter().any(|row| std(row).is_some())) else { return Ok(()) };
+    match group.rows.iter().find(|row| std(row).is_none()) {
+        Some(row) => Err(TableError::EmptyStd { line: row.line_number, column }),
+        None => Ok(()),
+    }
 }
 
 /// The number of rotors in all rows, as this project's own tables of loads have it.
@@ -228,7 +249,7 @@ impl RowReader<'_> {
                 fault: "not above 0, but a mass that hovers must be",
             });
         }
-        let std = |quantity: Quantity| -> Result<Option<f64>, TableError> {
+        let std = |quantity: Quantity, measured: f64| -> Result<Option<f64>, TableError> {
             let Some(column) = self.columns.iter().find(|column| column.quantity == Some(quantity)) else {
                 return Ok(None);
             };
@@ -239,7 +260,7 @@ impl RowReader<'_> {
                     value: plausible::in_unit(value, column),
                     fault: "negative, but a standard uncertainty must be 0 or more",
                 }),
-                value => Ok(value),
+                value => Ok(value.map(|value| if column.is_share { value * measured.abs() } else { value })),
             }
         };
         let other = |quantity: Quantity| {
@@ -254,9 +275,9 @@ impl RowReader<'_> {
         Ok(Some(StandRow {
             line_number: line_of(record),
             speed_rad_s,
-            speed_std_rad_s: std(Quantity::SpeedStd)?,
+            speed_std_rad_s: std(Quantity::SpeedStd, speed_rad_s)?,
             force: if is_mass { StandForce::Mass { mass_kg: force } } else { StandForce::Thrust { thrust_n: force } },
-            force_std: std(if is_mass { Quantity::MassStd } else { Quantity::ThrustStd })?,
+            force_std: std(if is_mass { Quantity::MassStd } else { Quantity::ThrustStd }, force)?,
             power_w,
             torque_n_m,
             voltage_v: other(Quantity::Voltage),
@@ -272,6 +293,22 @@ impl RowReader<'_> {
         let words = self.groups_by.iter().filter_map(|&column| record.get(column));
         words.collect::<Vec<_>>().join(", ")
     }
+}
+
+/// A note for each group that has rows without a speed or a force.
+fn empty_notes(empty: Vec<(String, u64)>) -> Vec<TableNote> {
+    let mut notes: Vec<TableNote> = Vec::new();
+    for (group, line) in empty {
+        let of_group = notes.iter_mut().find_map(|note| match note {
+            TableNote::Empty { group: named, lines } if *named == group => Some(lines),
+            _ => None,
+        });
+        match of_group {
+            Some(lines) => lines.push(line),
+            None => notes.push(TableNote::Empty { group, lines: vec![line] }),
+        }
+    }
+    notes
 }
 
 /// Reverses the sign of all thrusts of a stand that pulls, and leaves out rows against the sign of most others.
@@ -292,8 +329,8 @@ fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<TableNote>) {
         }
     }
     let against = |row: &StandRow| thrust(row) <= 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest;
-    for row in rows.iter().map(|of| &of.row).filter(|row| against(row)) {
-        notes.push(TableNote::AgainstTheOthers { line: row.line_number });
+    for GroupedRow { group, row } in rows.iter().filter(|of| against(&of.row)) {
+        notes.push(TableNote::AgainstTheOthers { group: group.clone(), line: row.line_number });
     }
     rows.retain(|of| !against(&of.row));
 }

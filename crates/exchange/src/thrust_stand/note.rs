@@ -15,6 +15,16 @@ pub enum TableNote {
         /// Header of the column.
         column: String,
     },
+    /// A speed whose header has the unit Hz.
+    SpeedInHz {
+        /// Header of the column.
+        column: String,
+    },
+    /// A standard uncertainty whose header does not name the quantity.
+    QuantityMissing {
+        /// Header of the column.
+        column: String,
+    },
     /// Columns that could have been the speed or the force as well.
     Rivals {
         /// Headers of the columns that are not used.
@@ -28,11 +38,15 @@ pub enum TableNote {
     TurnedRound,
     /// A row whose thrust has the other sign, or none.
     AgainstTheOthers {
+        /// Group of the row; empty without groups.
+        group: String,
         /// Line of the file, counted from 1.
         line: u64,
     },
     /// Rows without a speed or a force.
     Empty {
+        /// Group of the rows; empty without groups.
+        group: String,
         /// Lines of the file, counted from 1.
         lines: Vec<u64>,
     },
@@ -46,12 +60,27 @@ pub enum TableNote {
 }
 
 impl TableNote {
+    /// Whether it concerns a group of rows.
+    #[must_use]
+    pub fn is_of(&self, name: &str) -> bool {
+        match self {
+            Self::AgainstTheOthers { group, .. } | Self::Empty { group, .. } => group == name,
+            _ => true,
+        }
+    }
+
     /// What to do about it; empty where the user needs to do nothing.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
             Self::UnitMissing { .. } => {
                 "if hovertone should use this column, write the unit into its name, as in thrust_g or torque_n_m"
+            }
+            Self::SpeedInHz { .. } => {
+                "if it is the frequency of a tone, divide it by the tones per turn (the number of blades); name the column speed_rev_s"
+            }
+            Self::QuantityMissing { .. } => {
+                "write the quantity into its name, as in thrust_std_percent or speed_std_percent"
             }
             Self::Rivals { columns, .. } if columns.len() == 1 => {
                 "if hovertone should use this column, remove the other column"
@@ -68,6 +97,12 @@ impl fmt::Display for TableNote {
             Self::UnitMissing { column } => {
                 write!(f, "column \"{column}\" is not used: its name has no unit that hovertone knows")
             }
+            Self::SpeedInHz { column } => {
+                write!(f, "column \"{column}\" is read as turns of the rotor per second")
+            }
+            Self::QuantityMissing { column } => {
+                write!(f, "column \"{column}\" is not used: its name does not say which quantity has this uncertainty")
+            }
             Self::Rivals { columns, what, chosen } => {
                 let (noun, verb) = if columns.len() == 1 { ("column", "is") } else { ("columns", "are") };
                 let names: Vec<String> = columns.iter().map(|column| format!("\"{column}\"")).collect();
@@ -77,13 +112,13 @@ impl fmt::Display for TableNote {
                 "the thrusts are negative, and are used as positive ones: a stand that is mounted the other \
                  way shows the other sign",
             ),
-            Self::AgainstTheOthers { line } => {
+            Self::AgainstTheOthers { line, .. } => {
                 write!(f, "line {line} is left out: its thrust is zero, or has another sign than the others")
             }
-            Self::Empty { lines } if lines.len() > LINES_LISTED_MAX => {
+            Self::Empty { lines, .. } if lines.len() > LINES_LISTED_MAX => {
                 write!(f, "rows left out because their speed or force is empty: {}", lines.len())
             }
-            Self::Empty { lines } => {
+            Self::Empty { lines, .. } => {
                 let (noun, verb, their) =
                     if lines.len() == 1 { ("line", "is", "its") } else { ("lines", "are", "their") };
                 let numbers = lines.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");

@@ -179,3 +179,36 @@ fn columns_of_stated_uncertainties_are_named() {
     let table = table_from_csv("rpm,thrust_g,thrust_std_g,mass_std_g\n3000,1,2,3\n4000,2,2,3\n").unwrap();
     assert_eq!(table.std_columns, ["thrust_std_g"]);
 }
+
+#[test]
+fn an_uncertainty_in_percent_is_that_of_its_row() {
+    let table =
+        table_from_csv("rpm,speed_std_percent,thrust_g,thrust_std_%\n3000,0.1,100,1\n4000,0.2,180,2\n").unwrap();
+    let row = &table.groups[0].rows[1];
+    assert!((row.force_std.unwrap() / (0.18 * 9.80665) - 0.02).abs() < 1e-12);
+    assert!((row.speed_std_rad_s.unwrap() / row.speed_rad_s - 0.002).abs() < 1e-12);
+    let unnamed = table_from_csv("rpm,thrust_g,u_percent\n3000,100,1\n4000,180,2\n").unwrap();
+    assert_eq!(unnamed.groups[0].rows[0].force_std, None);
+    assert_eq!(unnamed.notes, [TableNote::QuantityMissing { column: "u_percent".to_owned() }]);
+}
+
+#[test]
+fn a_row_without_the_uncertainty_of_the_others_is_refused() {
+    let error = table_from_csv("rpm,thrust_g,thrust_std_g\n3000,100,1\n4000,180,\n").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "line 3, column \"thrust_std_g\": the cell is empty, but other rows have an uncertainty there"
+    );
+    // another group may state none
+    let groups = "motor,rpm,thrust_g,thrust_std_g\na,3000,100,1\na,4000,180,1\nb,3000,90,\nb,4000,160,\n";
+    assert_eq!(table_from_csv(groups).unwrap().groups[1].rows[0].force_std, None);
+}
+
+#[test]
+fn a_note_about_rows_belongs_to_their_group() {
+    let table = table_from_csv("motor,rpm,thrust_g\na,3000,100\na,4000,180\nb,3000,90\nb,,160\nb,5000,250\n").unwrap();
+    let [note] = &table.notes[..] else { panic!("{:?}", table.notes) };
+    assert!(note.is_of("b") && !note.is_of("a"), "{note}");
+    let in_hz = table_from_csv("speed_hz,thrust_g\n50,100\n60,150\n").unwrap();
+    assert_eq!(in_hz.notes, [TableNote::SpeedInHz { column: "speed_hz".to_owned() }]);
+}

@@ -228,7 +228,8 @@ fn relative_squares(values: &[f64]) -> f64 {
 
 /// Sets the uncertainty of the speed of every load, and returns its degrees of freedom. Two evaluations exist: the statement of the
 /// estimator, and the scatter from flight to flight. The one with the larger expanded uncertainty counts: few flights can agree by
-/// chance, and the estimator does not know of other flights.
+/// chance, and the estimator does not know of other flights. No load counts as better known than the scatter of repeated flights, also
+/// where the estimator knows another load worse than that: else one load alone would decide.
 fn settle_speed_std(loads: &mut [HeardLoad<'_>], scatter: Option<FlightScatter>) -> f64 {
     let by_frames = |load: &HeardLoad<'_>| load.estimator_std_share.powi(2);
     let trials = |load: &HeardLoad<'_>| load.trials_rad_s.len() as f64;
@@ -237,10 +238,14 @@ fn settle_speed_std(loads: &mut [HeardLoad<'_>], scatter: Option<FlightScatter>)
     let is_larger = |scatter: &FlightScatter| {
         scatter.std_share * trial_parts * student_factor(scatter.degrees_of_freedom) >= of_frames
     };
-    let Some(scatter) = scatter.filter(is_larger) else { return FREEDOM_OF_FRAMES };
+    let Some(scatter) = scatter.filter(|scatter| scatter.is_repeated || is_larger(scatter)) else {
+        return FREEDOM_OF_FRAMES;
+    };
+    let counts_alone = is_larger(&scatter);
     for load in loads {
-        load.speed_std_share = scatter.std_share / trials(load).sqrt();
+        let of_flights = scatter.std_share / trials(load).sqrt();
+        load.speed_std_share = if counts_alone { of_flights } else { load.estimator_std_share.max(of_flights) };
         load.estimator_std_share = load.estimator_std_share.min(load.speed_std_share);
     }
-    scatter.degrees_of_freedom
+    if counts_alone { scatter.degrees_of_freedom } else { FREEDOM_OF_FRAMES }
 }

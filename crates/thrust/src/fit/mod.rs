@@ -262,7 +262,9 @@ fn warnings_of(
         let has_added =
             |load: &LoadSpeeds| matches!(load.force, Force::Weight { added_mass_kg, .. } if added_mass_kg > 0.0);
         let has_added_mass = loads.iter().any(has_added);
-        warnings.push(ThrustWarning::LoadsDisagree { names, are_rows: false, has_added_mass });
+        let of_two = |row: &&LoadThrust| row.mass_that_fits_kg.filter(|_| misfits.len() == 2);
+        let masses_that_fit_kg = misfits.iter().filter_map(of_two).collect();
+        warnings.push(ThrustWarning::LoadsDisagree { names, are_rows: false, has_added_mass, masses_that_fit_kg });
     } else {
         warnings.extend(misfits.into_iter().map(|row| ThrustWarning::LoadDoesNotFit {
             name: row.name.clone(),

@@ -20,7 +20,12 @@ pub(super) fn warnings_of_misfits(points: &[PointVerdict], gravity_m_s2: Option<
     let misfits: Vec<&PointVerdict> = points.iter().filter(|point| point.fits == Some(false)).collect();
     if misfits.len() > 1 && misfits.len() == points.len() {
         let names = names_of(&misfits);
-        return vec![ThrustWarning::LoadsDisagree { names, are_rows: true, has_added_mass: false }];
+        return vec![ThrustWarning::LoadsDisagree {
+            names,
+            are_rows: true,
+            has_added_mass: false,
+            masses_that_fit_kg: vec![],
+        }];
     }
     if misfits.len() <= MISFITS_BY_NAME {
         return misfits.into_iter().map(misfit).collect();

@@ -257,6 +257,29 @@ fn halves_that_are_off_by_a_factor_are_not_averaged_in_silence() {
     assert!(fitted(&exact_hovers(&[0.0, 0.05], 3)).warnings.iter().all(|w| *w != ThrustWarning::ConstantsSplit));
 }
 
+/// The estimator knows one of two loads far better than the other. Its flights scatter all the same, so it does not decide alone; and no law is told
+/// from another by two loads, one of which has a wrong mass.
+#[test]
+fn no_load_counts_as_better_known_than_its_flights_repeat() {
+    let mut two = exact_hovers(&[0.0, 0.05], 3);
+    two[1].force = weight(0.03);
+    for sample in two[1].trials.iter_mut().flat_map(|trial| &mut trial.samples) {
+        sample.std_uncertainty_rev_s = Some(0.01 * sample.speed.rev_s());
+    }
+    let table = fitted(&two);
+    let std_share = |row: &LoadThrust| row.std_uncertainty_rad_s.unwrap() / row.speed.unwrap().rad_s();
+    assert!(std_share(&table.loads[0]) > 3e-4, "{}", std_share(&table.loads[0]));
+    assert!(std_share(&table.loads[1]) > 5e-3, "{}", std_share(&table.loads[1]));
+    // both known to the scatter of their flights: each mass would explain it, and no other law is named
+    let mut repeated = exact_hovers(&[0.0, 0.05], 3);
+    repeated[1].force = weight(0.03);
+    let table = fitted(&repeated);
+    let disagree = table.warnings.iter().find(|warning| matches!(warning, ThrustWarning::LoadsDisagree { .. }));
+    let told = disagree.unwrap().to_string();
+    assert!(told.contains("; they would if \"") && told.contains(" one of 463 g"), "{told}");
+    assert!(!table.warnings.iter().any(|warning| matches!(warning, ThrustWarning::OtherLawPreferred { .. })));
+}
+
 /// Copies of one recording, or of the rows of a table: no scatter, and no panic.
 #[test]
 fn copies_are_fitted() {

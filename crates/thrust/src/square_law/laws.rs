@@ -160,8 +160,8 @@ pub(super) fn law_probabilities(
         PointNoise::Measured { degrees_of_freedom } => Some(degrees_of_freedom as usize),
         PointNoise::Stated => None,
     };
-    if noise_freedom == Some(0) {
-        // two points without uncertainties: every law with two parameters goes through both
+    if freedom == 0 || noise_freedom == Some(0) {
+        // every law with two parameters goes through two points: nothing shows which of them is right, nor whether a point is wrong
         return Vec::new();
     }
     let of = |estimate: Estimate, prior: ParameterPrior| {

@@ -13,7 +13,7 @@ impl ThrustWarning {
                 misfit_hint(*is_row, mass_that_fits_kg.is_some(), *is_left_out)
             }
             Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale and the propellers",
-            Self::LoadsDisagree { has_added_mass, .. } => disagree_hint(*has_added_mass),
+            Self::LoadsDisagree { has_added_mass, names, .. } => disagree_hint(*has_added_mass, names.len()),
             Self::HeavierTurnedSlower { .. } => {
                 "do not use this constant: check whether two masses are exchanged, and which recording belongs to which load"
             }
@@ -98,12 +98,17 @@ fn misfit_hint(is_row: bool, has_mass: bool, is_left_out: bool) -> &'static str 
     }
 }
 
-/// What to check where loads do not fit each other.
-fn disagree_hint(has_added_mass: bool) -> &'static str {
-    if has_added_mass {
-        "check whether two masses are exchanged, and which recording belongs to which load; is each added mass (added_mass_kg) \
-         without the mass of the vehicle?"
-    } else {
-        "check whether two masses are exchanged, and which recording belongs to which load"
+/// What to check where loads do not fit each other. Two whose masses are exchanged turn slower under the heavier one, which has its own warning.
+fn disagree_hint(has_added_mass: bool, loads: usize) -> &'static str {
+    match (has_added_mass, loads) {
+        (true, 2) => {
+            "weigh both again, and check which recording belongs to which load; is each added mass (added_mass_kg) without the mass of the vehicle?"
+        }
+        (false, 2) => "weigh both again, and check which recording belongs to which load",
+        (true, _) => {
+            "check whether two masses are exchanged, and which recording belongs to which load; is each added mass (added_mass_kg) \
+             without the mass of the vehicle?"
+        }
+        (false, _) => "check whether two masses are exchanged, and which recording belongs to which load",
     }
 }

@@ -37,6 +37,8 @@ pub enum ThrustWarning {
         are_rows: bool,
         /// A load has an added mass, which may be that of vehicle and load together by mistake.
         has_added_mass: bool,
+        /// Of two loads: the mass of each that would agree with the other. Else empty.
+        masses_that_fit_kg: Vec<f64>,
     },
     /// A trial needs another thrust than the others of its load.
     TrialFarFromOthers {

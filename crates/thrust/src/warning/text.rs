@@ -3,8 +3,8 @@
 use super::ThrustWarning;
 use crate::statistics::COVERAGE_FACTOR;
 use crate::warning_words::{
-    differ_text, drift_text, first_names, foreign_text, groups_text, mass_text, misfit_text, range_text, ratio_text,
-    short_text,
+    differ_text, drift_text, either_mass_text, first_names, foreign_text, groups_text, mass_text, misfit_text,
+    range_text, ratio_text, short_text,
 };
 use std::fmt;
 
@@ -15,9 +15,9 @@ impl fmt::Display for ThrustWarning {
                 let that_fits = mass_that_fits_kg.map(|mass_kg| (mass_kg, *mass_that_fits_std_kg));
                 f.write_str(&misfit_text(name, *is_row, that_fits, *is_left_out))
             }
-            Self::LoadsDisagree { names, are_rows, .. } => {
+            Self::LoadsDisagree { names, are_rows, masses_that_fit_kg, .. } => {
                 let noun = if *are_rows { "rows" } else { "loads" };
-                write!(f, "the {noun} do not fit each other: {}", first_names(names))
+                write!(f, "the {noun} do not fit each other: {}{}", first_names(names), either_mass_text(names, masses_that_fit_kg))
             }
             Self::TrialFarFromOthers { load, recording, thrust_share } => {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };
@@ -94,6 +94,8 @@ fn one_each_text(load_count: usize) -> &'static str {
         1 => {
             "only one recording can be used, so the ± does not include how much the speed differs from flight to flight"
         }
-        _ => "each load has one recording, so the law cannot be tested; the ± comes from the scatter of the loads",
+        _ => {
+            "each load has one recording, so the law cannot be tested; the ± comes from the differences between the loads, and is large because they are few"
+        }
     }
 }

@@ -112,6 +112,15 @@ impl WeighedHover {
 }
 
 impl WeighedHover {
+    /// Whether the vehicle seems to weigh less than alone, by more than the ± and more than another battery explains.
+    pub fn is_below_vehicle(&self) -> bool {
+        self.payload_kg.is_some_and(|payload| {
+            let vehicle_kg = self.mass_kg.value - payload.value;
+            let expanded_kg = crate::COVERAGE_FACTOR * payload.std_uncertainty.unwrap_or(0.0);
+            payload.value < -expanded_kg.max(LIGHTER_SHARE_MAX * vehicle_kg)
+        })
+    }
+
     /// The warning that the ± of one recording lacks the differences between flights, where there is a ±.
     pub fn warning(&self) -> Option<ThrustWarning> {
         let lacks_scatter = !self.has_flight_scatter && self.mass_kg.std_uncertainty.is_some();
