@@ -25,6 +25,8 @@ pub struct GivenFacts {
     pub diameter: bool,
     /// The mass, where it is not that of the vehicle.
     pub mass: bool,
+    /// The mass is that of a load of an experiment, which cannot be left out.
+    pub is_load: bool,
     /// The band of the tone.
     pub band: bool,
     /// The length of the frames.
@@ -96,6 +98,9 @@ impl GivenFacts {
             )
         };
         let hint = |warning: &&Warning| match warning {
+            Warning::FitsElsewhere(_) if self.is_load => {
+                format!("check {}; check the mass of its load too", self.in_words("and"))
+            }
             Warning::FitsElsewhere(_) => format!("check {}", self.in_words("and")),
             warning if self.window && is_about_ridge(warning) => {
                 "leave --window-s out: hovertone then chooses a length that fits the tone".to_owned()
@@ -140,6 +145,7 @@ mod tests {
             order: false,
             diameter: true,
             mass: true,
+            is_load: false,
             band: true,
             window: true,
             rotors: false,

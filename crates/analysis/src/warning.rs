@@ -267,7 +267,7 @@ impl fmt::Display for Warning {
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
                 "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is \
-                more than 99 times as probable as the given rotor"
+                more than 99 times as probable as one that fits them"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(

@@ -243,9 +243,17 @@ fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Resul
         return Ok(());
     }
     let what = format!(
-        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is {arm_m:.2e} m times the thrust constant of one rotor, \
-         but for all propellers this ratio is less than {TORQUE_PER_THRUST_M_MAX} m"
+        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is too large: it is {arm_m:.0} times the thrust constant of one rotor (in m), and less than \
+         {TORQUE_PER_THRUST_M_MAX} for all propellers"
     );
+    // the momentConstant of a model is this ratio
+    if torque_constant_n_m_s2 <= TORQUE_PER_THRUST_M_MAX {
+        let hint = format!(
+            "is it the momentConstant of a model, C_τ/C_f in m? Then give C_τ: --torque-constant-n-m-s2 {:.3e}",
+            torque_constant_n_m_s2 * thrust_constant_n_s2
+        );
+        return Err(Failure::usage(what, hint));
+    }
     Err(Failure::usage(
         what,
         "give C_τ of the law torque = C_τ ω², in N m/(rad/s)²; small propellers have 1e-9 to 1e-6",

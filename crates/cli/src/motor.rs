@@ -17,8 +17,8 @@ use hovertone::motors::HeardCommands;
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
 use hovertone_dynamics::{
-    BenchTorque, CommandSeries, MotorConfig, MotorSeries, TorqueSeries, command_of_speed, motor_from_series,
-    torque_of_motor,
+    BenchTorque, CommandSeries, MotorConfig, MotorModel, MotorSeries, TorqueSeries, command_of_speed,
+    motor_from_series, torque_of_motor,
 };
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
@@ -142,7 +142,9 @@ impl<'a> Plan<'a> {
                 (sound.frame_s, sound.offset_s) = (motor.frame_s, motor.offset_s);
                 let is_used = motor.model.as_ref().is_some_and(|model| model.static_map.is_some());
                 let command = commands.and_then(|(commands, _)| commands.names.first()).filter(|_| is_used).cloned();
-                unused = self.misaligned(motor.other_offset_s).or_else(|| self.unused_commands().filter(|_| !is_used));
+                unused = self
+                    .misaligned(motor.other_offset_s)
+                    .or_else(|| self.unused_commands(motor.model.as_ref()).filter(|_| !is_used));
                 let name = if self.arguments.known.rotors == Some(1) { ONE_ROTOR } else { ALL_ROTORS };
                 motors.extend(motor.model.map(|model| LoggedMotor { name: name.to_owned(), command, model }));
                 sound.no_tone = motors.is_empty().then(|| self.nothing_held());
@@ -169,13 +171,20 @@ impl Plan<'_> {
     }
 
     /// That the commands of a log do not belong to this sound; `None` where none are given.
-    fn unused_commands(&self) -> Option<Notice> {
-        let log = self.arguments.commands.as_ref()?;
-        let what = format!(
-            "the commands of {} are not used: they and the heard speeds do not change at the same times",
-            printable(&log.display().to_string())
-        );
-        Some(Notice::new(what, "check that the log and the recording are of the same run"))
+    fn unused_commands(&self, model: Option<&MotorModel>) -> Option<Notice> {
+        let log = printable(&self.arguments.commands.as_ref()?.display().to_string());
+        let has_steps = model.is_some_and(|model| !model.steps.is_empty());
+        let (why, hint) = match has_steps {
+            true => (
+                "they and the heard speeds do not change at the same times",
+                "check that the log and the recording are of the same run",
+            ),
+            false => (
+                "no step of the speed is heard, from one steady value to another",
+                "record a bench run whose command steps, and hold each level for a second or longer",
+            ),
+        };
+        Some(Notice::new(format!("the commands of {log} are not used: {why}"), hint))
     }
 
     /// That the steps of commands and sound agree at another offset than the given one.

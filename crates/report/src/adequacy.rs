@@ -70,7 +70,9 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
             .map_or(DASH.to_owned(), |known| format!("{:.1}", 100.0 * known.probability))
     };
     let mut row = |law: ForceLaw, cells: [String; 3]| {
-        let mark = if preferred_law(fit) == Some(law) { " (preferred)" } else { "" };
+        // forces that are too alike to test the square law do not prefer it
+        let is_tested = law != ForceLaw::Square || fit.range.is_none_or(|range| range.shows_intercept);
+        let mark = if is_tested && preferred_law(fit) == Some(law) { " (preferred)" } else { "" };
         let [constant, intercept, exponent] = cells;
         text.push(vec![format!("{}{mark}", law.formula()), constant, intercept, exponent, probability(law)]);
     };
@@ -113,6 +115,9 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             significant(law.reference_rad_s, 5),
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
         ),
+        _ if fit.laws.len() <= 1 && fit.points.len() == LAW_PARAMETERS => {
+            format!("no other law is compared with {}: this needs three forces or more\n", ForceLaw::Square.formula())
+        }
         _ if fit.laws.len() <= 1 && fit.points.len() > LAW_PARAMETERS => {
             format!(
                 "no other law is compared with {}: {}\n",

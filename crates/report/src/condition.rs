@@ -29,7 +29,9 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
         let why_none = match () {
             () if !record.rotors().is_empty() => "",
             () if !are_blades_known => WITHOUT_BLADES,
-            () if record.is_one_rotor() => "not known: the tone of the blades is too faint, or never heard for 4 s",
+            () if record.is_one_rotor() => {
+                "not known: no clear tone of the blades lasts 4 s; hold the speed for longer, or place the microphone nearer"
+            }
             () => "not known: the rotors could not be separated; if one rotor turns, give --rotors 1",
         };
         table.push_words(record.file.clone(), why_none.to_owned());
@@ -62,10 +64,13 @@ fn row(name: String, condition: &RotorCondition) -> Vec<String> {
     ]
 }
 
+/// No level is told finer than this: a microphone's own response is known no better, dB.
+const LEVEL_STD_DB_MIN: f64 = 0.1;
+
 /// The level of a line, or the level of the noise for an inaudible line.
 fn level(line: &ShaftLine) -> String {
     match (line.level_db, line.noise_db) {
-        (Some(level_db), _) => rounded(level_db, line.std_uncertainty_db),
+        (Some(level_db), _) => rounded(level_db, line.std_uncertainty_db.map(|std_db| std_db.max(LEVEL_STD_DB_MIN))),
         (None, Some(noise_db)) => format!("< {}", fixed(noise_db, 0)),
         (None, None) => DASH.to_owned(),
     }

@@ -88,7 +88,9 @@ pub fn fitted_tables_json(tables: &[FittedTable]) -> Result<String, serde_json::
 /// The result and the laws beside it.
 pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let constant = table.thrust_constant_per_rotor_n_s2;
-    let meaning = constant.std_uncertainty.map_or("± is not known", |_| "k = 2");
+    let meaning = constant
+        .std_uncertainty
+        .map_or("± is not known", |_| "k = 2; the calibration of the scale and of the tachometer is not in it");
     let left_out = match table.fit.points.iter().filter(|point| point.is_gross).count() {
         0 => String::new(),
         count => format!(", {count} of them left out of the fit"),

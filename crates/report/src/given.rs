@@ -12,6 +12,8 @@ impl SpeedRecord {
         let preset = vehicle.and_then(Value::as_str).and_then(find_preset);
         // no preset is known for a vehicle of the user's own: all facts may be its own
         let is_own = |of_preset: Option<bool>| vehicle.is_none() || of_preset == Some(false);
+        // it tells no mass of this flight: one that is known may have been given
+        let is_of_user = vehicle.is_some() && preset.is_none();
         let differs = |place: &str, of_preset: Option<f64>| {
             self.setting(place).is_some_and(|value| is_own(preset.map(|_| value.as_f64() == of_preset)))
         };
@@ -28,7 +30,9 @@ impl SpeedRecord {
             gear: is_order_given && is_mesh && is_own(preset.map(|preset| preset.gear.is_some())),
             order: is_order_given && !is_mesh && !are_blades_given,
             diameter: differs("/known/diameter_m", preset.and_then(|preset| Some(preset.propeller_diameter_m?.value))),
-            mass: !is_of_load && differs("/known/mass_kg", preset.and_then(|preset| Some(preset.mass_kg?.value))),
+            is_load: is_of_load,
+            mass: !is_of_load && differs("/known/mass_kg", preset.and_then(|preset| Some(preset.mass_kg?.value)))
+                || is_of_user && !is_of_load && self.setting("/known/mass_kg").is_some(),
             band: self.setting("/tone/band_hz").is_some(),
             window: self.setting("/spectrogram/window_s").is_some(),
             rotors: vehicle.is_none() && self.setting("/known/rotor_count").is_some(),

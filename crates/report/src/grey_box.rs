@@ -34,6 +34,8 @@ pub struct GreyBoxRecord {
     pub are_speeds_logged: bool,
     /// Time from the first to the last speed.
     pub length_s: f64,
+    /// Median time between two rows of the log.
+    pub row_s: f64,
     /// The fit.
     pub fit: GreyBoxFit,
     /// Volts per rad/s of the rotor about hover, by the vehicle's numbers.
@@ -166,16 +168,23 @@ pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
 
 /// That a delay is below zero by more than its ±, which no delay is; `None` where none is.
 fn negative_delay(record: &GreyBoxRecord) -> Option<String> {
-    let is_negative = |delay: &Parameter| {
-        let told = record.fit.estimate(*delay);
-        told.is_some_and(|told| told.value + COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0) < 0.0)
+    let value_of = |delay: Parameter| {
+        let told = record.fit.estimate(delay)?;
+        let is_below = told.value + COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0) < 0.0;
+        is_below.then_some((delay, told))
     };
-    let delay = [Parameter::CommandDelay, Parameter::MeasuredDelay].into_iter().find(is_negative)?;
-    Some(format!(
-        "{} is negative, which no delay is. Where it is not longer than the time between two log rows, this is no fault: the log knows the time \
-        of a command only to one row. Where it is longer, the model does not fit",
-        delay.in_words()
-    ))
+    let (delay, told) = [Parameter::CommandDelay, Parameter::MeasuredDelay].into_iter().find_map(value_of)?;
+    let least_s = -told.value - COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0);
+    let row_ms = significant(1e3 * record.row_s, 2);
+    let meaning = match least_s <= record.row_s {
+        true => format!(
+            "this is no fault: the log has a row every {row_ms} ms, and knows the time of a command only to one row"
+        ),
+        false => format!(
+            "and this is more than the {row_ms} ms between two rows of the log: the clocks or the model do not fit"
+        ),
+    };
+    Some(format!("{} is negative, which no delay is; {meaning}", delay.in_words()))
 }
 
 /// What speaks against the model: gains that no controller has, and a rotor of another vehicle.

@@ -28,7 +28,10 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += "the rows of this log are too far apart for a time constant; log the speeds every 20 ms or faster\n";
     } else if !has_steps {
         text += match record.source {
-            MotorSource::Log => "no step: the speed never changes from one steady value to another\n",
+            MotorSource::Log => {
+                "no step: the speed never changes from one steady value to another; log a bench run whose command steps, and hold each level for a \
+                 second or longer\n"
+            }
             MotorSource::Sound(_) => {
                 "no step is heard: the tone that is followed never changes from one steady value to another; record a bench run whose command \
                  steps, and hold each level for a second or longer\n"

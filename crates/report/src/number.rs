@@ -32,7 +32,8 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 /// The same with a plus sign, for a difference.
 pub fn signed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
-    if text.starts_with('−') { text } else { format!("+{text}") }
+    let is_zero = text.chars().all(|digit| matches!(digit, '0' | '.'));
+    if text.starts_with('−') || is_zero { text } else { format!("+{text}") }
 }
 
 /// A value with a given number of digits, for values whose uncertainty is shown elsewhere.

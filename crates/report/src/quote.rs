@@ -1,6 +1,6 @@
 //! What a person quotes of an identified experiment: the constant with its ±, and the verdict on the loads.
 
-use crate::number::{PowerOfTen, with_uncertainty};
+use crate::number::{PowerOfTen, fixed, with_uncertainty};
 use crate::thrust::{CONSTANT_UNIT, WITHOUT_FLIGHTS};
 use hovertone_analysis::RotorsHeardCounts;
 use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable, ThrustWarning, p_value_text};
@@ -83,9 +83,18 @@ pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
         ": about 95 of 100 true values lie within it"
     };
     let meaning = share.map_or("; ± is not known".to_owned(), |percent| {
-        format!("; ± is {percent:.2} % (k = {COVERAGE_FACTOR}{covers})")
+        format!("; ± is {} % (k = {COVERAGE_FACTOR}{covers})", fixed(percent, percent_decimals(percent)))
     });
     Some(format!("C_f = {} for one rotor{vehicle}{meaning}", quoted(per_rotor)))
+}
+
+/// Decimals of an uncertainty in percent: two of a small one, none of one that tells hardly more than the size.
+fn percent_decimals(percent: f64) -> usize {
+    match percent {
+        ..10.0 => 2,
+        ..100.0 => 1,
+        _ => 0,
+    }
 }
 
 /// "(7.09 ± 0.03) 1e-6 N s²".
@@ -99,9 +108,10 @@ pub(crate) fn quoted(constant: Estimate) -> String {
 /// rotors, some could not be separated.
 pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<String> {
     let partly = partly.min(counts.separated);
+    let all = if partly > 0 { "all separated" } else { "separated" };
     let parts = [
-        (counts.separated - partly, "separated"),
-        (partly, "separated, but not all of them,"),
+        (counts.separated - partly, all),
+        (partly, "only some of them separated"),
         (counts.group, "heard as a group"),
         (counts.one_tone, "with one tone for all"),
     ];

@@ -48,7 +48,10 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
                     table.push(cells_of_speed(name_of_rotor(record, index), &rotor.speed, String::new()));
                 }
                 if record.is_doubtful() {
-                    table.push_words("  do not use this speed".to_owned(), "it contradicts the given facts".to_owned());
+                    table.push_words(
+                        "  do not use this speed".to_owned(),
+                        "the sound contradicts the given facts".to_owned(),
+                    );
                 }
             }
             None if record.has_failed() => table.push_words(name(record), "could not be heard".to_owned()),

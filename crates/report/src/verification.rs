@@ -80,6 +80,12 @@ fn offset_in_words(found: &Verification) -> String {
         );
     }
     let used = signed(found.offset_s, 1);
+    if let Some(better_s) = found.better_offset_s.filter(|_| found.is_offset_given) {
+        return format!(
+            "offset of the log: {used} s is used, as --log-offset-s allows, but the speeds agree clearly better at {} s\n",
+            signed(better_s, 1)
+        );
+    }
     if found.is_offset_given {
         return format!(
             "offset of the log: {used} s is used, as --log-offset-s allows; the speeds alone do not show it\n"

@@ -120,7 +120,7 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
     }
     for (name, value) in [("added_mass_kg", wish.added_mass_kg_max), ("mass_std_kg", wish.mass_std_kg)] {
         if value > MASS_FACTOR_MAX * wish.vehicle_mass_kg {
-            let must_be = "at most ten times the mass of the vehicle; masses are in kilograms: 31 g are 0.031";
+            let must_be = "at most ten times the mass of the vehicle; masses are in kilograms, or with a unit: 31 g are 0.031 or 31g";
             return Err(QuantityError { name, value, must_be }.into());
         }
     }

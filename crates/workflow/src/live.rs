@@ -83,7 +83,11 @@ pub struct LiveLine<'a> {
 impl<'a> LiveLine<'a> {
     /// A live speed, with what the last review says.
     pub fn new(speed: &'a LiveSpeed, listener: &'a Listener) -> Self {
-        let possible_rev_s = listener.possible().iter().map(|possible| possible.speed_rev_s).collect();
+        let mut possible_rev_s: Vec<f64> = listener.possible().iter().map(|possible| possible.speed_rev_s).collect();
+        // the rotors may be lost since
+        if speed.status == LiveStatus::Ambiguous && possible_rev_s.is_empty() {
+            possible_rev_s.extend(speed.speed_rev_s);
+        }
         Self { speed, rotors_rev_s: listener.rotors_rev_s(), possible_rev_s, remark: live_remark(listener) }
     }
 }

@@ -73,8 +73,8 @@ fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
         false => {
-            "the means of all rotors are compared, because the rotors were not separated in at least one archive (of one rotor that ran alone, this is \
-            its speed)\n"
+            "the means of all rotors are compared, because the rotors are not separated in both archives (leave --mean-only out of `hovertone batch` to separate them; of one rotor that ran \
+            alone, the mean is its speed)\n"
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::order_words::{times, times_per_turn};
 use crate::vehicles::preset;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
+use hovertone::thrust::COVERAGE_FACTOR;
 use hovertone_report::{fixed, printable, signed, with_uncertainty};
 use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Gear, Order, RotorSpeed};
 use serde_json::json;
@@ -104,6 +105,12 @@ impl Comparison {
     /// Whether the known number has more of the ± than the heard one.
     fn is_known_the_less_exact(&self) -> bool {
         self.reference.std_share() >= self.heard.std_rev_s.unwrap_or(0.0) / self.heard.speed.rev_s()
+    }
+
+    /// The smaller of the ± of the known number and that of the heard one, ppm.
+    fn least_expanded_ppm(&self) -> f64 {
+        let heard = self.heard.std_rev_s.unwrap_or(0.0) / self.heard.speed.rev_s();
+        COVERAGE_FACTOR * MILLION * heard.min(self.reference.std_share())
     }
 
     /// The band around the tone that the known speed and the given order mean.
@@ -298,6 +305,11 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         format!("it may run fast or slow: the correction is {off}")
     };
     let advice = match judgement {
+        // each of the two alone would leave it open
+        Judgement::Undecided if comparison.least_expanded_ppm() >= arguments.clock_ppm => {
+            "; neither the known number nor the sound is exact enough: give the known number with its uncertainty (--known-std-ppm), and make a \
+             longer recording"
+        }
         Judgement::Undecided if comparison.is_known_the_less_exact() => {
             "; most of the ± comes from the known number: measure it more exactly, and give its \
              uncertainty with --known-std-ppm"

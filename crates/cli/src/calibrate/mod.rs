@@ -104,6 +104,10 @@ fn say_notes(heard: &Heard, name: &str, notice: Option<&Notice>, terminal: &mut 
         return terminal.notes(&records);
     }
     if let Some(reason) = &heard.reason {
+        // an answer that is open is no error
+        if [SEVERAL_ROTORS, AMBIGUOUS, OTHER_ROTOR, HARDLY_HEARD].contains(&heard.status) {
+            return terminal.say(&format!("{name}: {reason}"));
+        }
         terminal.error(&Notice::new(format!("{name}: {reason}"), ""));
     }
 }

@@ -22,6 +22,9 @@ use notices::{WorstRow, far_off_notice, notice_of, rotors_notice, too_large_noti
 use planned::plan_campaign;
 use std::path::Path;
 
+/// Chance above which rows scatter less than their stated uncertainties make plausible.
+const QUIET_CHANCE: f64 = 0.99;
+
 /// The meaning of the arguments.
 struct Plan {
     gravity: Gravity,
@@ -169,6 +172,7 @@ fn fitted_table(
     let is_explained = |warning: &&ThrustWarning| {
         is_too_strong && matches!(warning, ThrustWarning::LoadsDisagree { are_rows: true, .. })
     };
+    let is_quiet = fit.agreement.is_some_and(|agreement| agreement.p_value > QUIET_CHANCE);
     let worst = WorstRow::of(&points, &fit);
     let std_columns = if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] };
     let of_table = table
@@ -199,7 +203,7 @@ fn fitted_table(
                 warnings
                     .iter()
                     .filter(|warning| !is_explained(warning))
-                    .map(|warning| notice_of(warning, std_columns, worst.as_ref())),
+                    .map(|warning| notice_of(warning, std_columns, is_quiet, worst.as_ref())),
             )
             .collect(),
         fit,

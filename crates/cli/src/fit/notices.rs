@@ -33,7 +33,13 @@ impl<'a> WorstRow<'a> {
 }
 
 /// A warning about the fit. Where uncertainties are stated, they too may be why rows do not fit.
-pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String], worst: Option<&WorstRow<'_>>) -> Notice {
+/// `is_quiet`: the rows differ from the law by far less than the stated uncertainties say.
+pub(super) fn notice_of(
+    warning: &ThrustWarning,
+    stated: &[String],
+    is_quiet: bool,
+    worst: Option<&WorstRow<'_>>,
+) -> Notice {
     let is_of_rows = matches!(
         warning,
         ThrustWarning::LoadDoesNotFit { is_row: true, .. }
@@ -50,6 +56,14 @@ pub(super) fn notice_of(warning: &ThrustWarning, stated: &[String], worst: Optio
                 format!("correct the rows that do not fit, if there are any; if not, measure more rows{too_large}");
             Notice::new(warning.to_string(), hint)
         }
+        ThrustWarning::NarrowLoadRange(_) if is_quiet && !stated.is_empty() => Notice::new(
+            warning.to_string(),
+            format!(
+                "the rows differ from the law by far less than {} says: is it too large, or an expanded uncertainty? If not, measure a wider range \
+                 of forces; C_f is still valid near these forces",
+                stated.join(" or ")
+            ),
+        ),
         ThrustWarning::NarrowLoadRange(_) => Notice::new(
             warning.to_string(),
             "C_f is still valid near these forces; to test the law, measure a wider range of forces",
@@ -146,17 +160,20 @@ mod tests {
         let columns = ["thrust_std_g".to_owned()];
         let of_rows = ThrustWarning::RowsDoNotFit { names: vec!["line 3".to_owned()], are_left_out: false };
         assert!(
-            notice_of(&of_rows, &columns, None)
+            notice_of(&of_rows, &columns, false, None)
                 .hint
                 .contains("; or thrust_std_g is too small; or the speeds are uncertain too")
         );
-        assert_eq!(notice_of(&of_rows, &[], None), Notice::from(&of_rows));
-        assert_eq!(notice_of(&ThrustWarning::SingleLoad, &columns, None), Notice::from(&ThrustWarning::SingleLoad));
+        assert_eq!(notice_of(&of_rows, &[], false, None), Notice::from(&of_rows));
+        assert_eq!(
+            notice_of(&ThrustWarning::SingleLoad, &columns, false, None),
+            Notice::from(&ThrustWarning::SingleLoad)
+        );
     }
 
     #[test]
     fn a_table_is_not_asked_for_a_tone_or_a_flight() {
-        let split = notice_of(&ThrustWarning::ConstantsSplit, &[], None).hint;
+        let split = notice_of(&ThrustWarning::ConstantsSplit, &[], false, None).hint;
         assert!(split.starts_with("do not use this constant: check the speeds"), "{split}");
         assert!(!split.contains("tone") && !split.contains("load"), "{split}");
     }

@@ -107,6 +107,7 @@ pub(crate) fn record_of(
         vehicle: vehicle.id().to_owned(),
         are_speeds_logged: files.recording.is_none(),
         length_s: length_s(&heard.observations),
+        row_s: flown.inputs.row_s,
         fit: heard.fit.clone(),
         slope_v_s_rad: vehicle.slope_v_s_rad(&heard.fit),
         places: vehicle.parameters.layout.value.place_names(),

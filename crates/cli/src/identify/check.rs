@@ -63,7 +63,7 @@ pub(super) fn run(
     let worded = |warning: &ThrustWarning| Notice::from(warning).worded(BEFORE_HEARING).worded(source.wording);
     warnings.iter().for_each(|warning| terminal.warning(&worded(warning), ""));
     wishes_of(experiment, source.typed.is_some()).iter().for_each(|wish| terminal.tip(wish));
-    terminal.text(&format!("\n{}", verdict(faults.len(), arguments.output.as_deref())))?;
+    terminal.text(&format!("\n{}", verdict(faults.len(), warnings.len(), arguments.output.as_deref())))?;
     Ok(if faults.is_empty() { Ending::Done } else { Ending::FilesFailed })
 }
 
@@ -168,8 +168,12 @@ fn wishes_of(experiment: &Experiment, is_typed: bool) -> Vec<Notice> {
     .collect()
 }
 
-fn verdict(faults: usize, output: Option<&Path>) -> String {
+fn verdict(faults: usize, warnings: usize, output: Option<&Path>) -> String {
     match (faults, output) {
+        (0, _) if warnings > 0 => {
+            "all files are there. First see to the warnings above, then run the same command without --check\n"
+                .to_owned()
+        }
         (0, Some(folder)) => format!(
             "ready: all files are there. Now run the same command without --check; it writes the results into {}\n",
             folder.display()

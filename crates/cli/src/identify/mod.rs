@@ -142,8 +142,16 @@ fn checked_folder(
     let run = format!("identify {}{root}", source.fingerprint());
     let of_typed = source.typed.as_ref().map(|_| EXPERIMENT);
     let files: Vec<&str> = RESULTS.into_iter().chain(of_typed).collect();
-    OutputFolder::checked(folder, outputs, &FolderContent { name: "of the same experiment", run: &run, files: &files })
-        .map(Some)
+    OutputFolder::checked(
+        folder,
+        outputs,
+        &FolderContent {
+            name: "of the same experiment (a changed experiment file counts as another one)",
+            run: &run,
+            files: &files,
+        },
+    )
+    .map(Some)
 }
 
 /// The last line to quote: where the page is.

@@ -3,11 +3,13 @@
 use crate::failure::Failure;
 use crate::listen::advice::Advice;
 use hovertone::live::{Listener, LiveSpeed, LiveStatus};
-use hovertone_report::fixed;
+use hovertone_report::{fixed, significant};
 use hovertone_workflow::{LiveLine, live_remark, live_status_in_words, live_words, possible_speeds_in_words};
 
 /// Live speeds of one second, of which a line of text tells the last.
 const SPEEDS_PER_LINE: usize = 10;
+/// Digits of a speed that is one of several.
+const DIGITS: usize = 3;
 /// Names of the columns, above the first line.
 const HEAD: &str =
     "      time       level  mean speed of the rotors (± covers 95 % of cases; 0 dB: the loudest possible sine)\n";
@@ -41,7 +43,12 @@ impl PlainLines {
         self.last_status = status;
         // a ± is that of one speed
         let (speeds, separator) = match speed.status {
-            LiveStatus::Ambiguous => (possible_speeds_in_words(listener.possible(), speed.speed_rev_s), ": "),
+            LiveStatus::Ambiguous => {
+                let possible = possible_speeds_in_words(listener.possible(), speed.speed_rev_s);
+                // the rotors may be lost since
+                let followed = || Some(format!("{} rev/s or another", significant(speed.speed_rev_s?, DIGITS)));
+                (possible.or_else(followed), ": ")
+            }
             _ => (live_words(speed).map(|one| format!("{} ± {} rev/s", one.speed_rev_s, one.plus_minus_rev_s)), ", "),
         };
         let words = [speeds.unwrap_or_default(), now];

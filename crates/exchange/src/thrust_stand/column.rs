@@ -11,6 +11,8 @@ pub(super) const RPM_RAD_S: f64 = TAU / 60.0;
 const POUND_KG: f64 = 0.453_592_37;
 /// Kilograms in an ounce.
 const OUNCE_KG: f64 = POUND_KG / 16.0;
+/// Coverage factor of expanded uncertainties.
+const COVERAGE_FACTOR: f64 = 2.0;
 /// Metres in an inch.
 const INCH_M: f64 = 0.0254;
 
@@ -58,6 +60,17 @@ impl Column {
         words_of(&self.header.to_lowercase()).any(|word| word == "torque")
     }
 
+    /// Whether the column is an expanded uncertainty with k = 2: twice a standard uncertainty.
+    pub(super) fn is_expanded(&self) -> bool {
+        let is_std = matches!(self.quantity, Some(Quantity::SpeedStd | Quantity::ThrustStd | Quantity::MassStd));
+        let lower = self.header.to_lowercase();
+        let names_k = ["k2", "k=2", "k = 2"].iter().any(|factor| lower.contains(factor));
+        is_std
+            && (names_k
+                || words_of(&lower).any(|word| word == "expanded")
+                || words_of(&self.header).any(|word| word == "U"))
+    }
+
     /// Whether the header says Hz, and not turns: it may be the frequency of a tone.
     pub(super) fn is_in_hz(&self) -> bool {
         let lower = self.header.to_lowercase();
@@ -88,7 +101,7 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
         };
         let cells = || records.iter().filter_map(|record| record.get(index));
         let is_word = |cell: &str| !cell.is_empty() && cell.replacen(',', ".", 1).parse::<f64>().is_err();
-        Column {
+        let mut column = Column {
             index,
             header: header.to_owned(),
             quantity: known.map(|(quantity, _)| quantity),
@@ -97,7 +110,11 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
             lacks_quantity: matches!(meaning, Meaning::StdOfUnknown),
             is_share: matches!(meaning, Meaning::Share(_)),
             si_per_unit: known.map_or(1.0, |(_, si_per_unit)| si_per_unit),
+        };
+        if column.is_expanded() {
+            column.si_per_unit /= COVERAGE_FACTOR;
         }
+        column
     };
     headers.iter().enumerate().map(column).collect()
 }
@@ -151,7 +168,7 @@ fn meaning_of(header: &str) -> Meaning {
     let lower = header.to_lowercase().replace(['²', '^'], "2");
     let words: Vec<&str> = words_of(&lower).collect();
     let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
-    if has(&STD) && (has(&["percent"]) || lower.contains('%')) {
+    if has(&STD) && (has(&["percent", "pct"]) || lower.contains('%')) {
         return share_of(&words);
     }
     if has(&NO_MEASUREMENT) {

@@ -138,6 +138,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let of_nothing = columns.iter().filter(|column| column.lacks_quantity);
     notes.extend(of_nothing.map(|column| TableNote::QuantityMissing { column: column.header.clone() }));
     notes.extend(rivals(&csv, &columns, &records, [speed, force]));
+    notes.extend(std_notes(&columns, force));
     notes.extend(speed.is_in_hz().then(|| TableNote::SpeedInHz { column: speed.header.clone() }));
     notes.extend(empty_notes(empty));
     turn_round(&mut rows, &mut notes);
@@ -293,6 +294,21 @@ impl RowReader<'_> {
         let words = self.groups_by.iter().filter_map(|&column| record.get(column));
         words.collect::<Vec<_>>().join(", ")
     }
+}
+
+/// How the columns of uncertainties are read: those of the force that is used, and of the speed.
+fn std_notes(columns: &[Column], force: &Column) -> Vec<TableNote> {
+    let of_force = if force.quantity == Some(Quantity::Mass) { Quantity::MassStd } else { Quantity::ThrustStd };
+    let mut notes = Vec::new();
+    for quantity in [of_force, Quantity::SpeedStd] {
+        let mut of_quantity = columns.iter().filter(|column| column.quantity == Some(quantity));
+        let Some(used) = of_quantity.next() else { continue };
+        notes.extend(used.is_expanded().then(|| TableNote::Expanded { column: used.header.clone() }));
+        notes.extend(
+            of_quantity.map(|other| TableNote::SecondStd { column: other.header.clone(), chosen: used.header.clone() }),
+        );
+    }
+    notes
 }
 
 /// A note for each group that has rows without a speed or a force.

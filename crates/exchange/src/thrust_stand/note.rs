@@ -15,6 +15,18 @@ pub enum TableNote {
         /// Header of the column.
         column: String,
     },
+    /// An expanded uncertainty.
+    Expanded {
+        /// Header of the column.
+        column: String,
+    },
+    /// Standard uncertainties of a quantity that has them already.
+    SecondStd {
+        /// Header of the column.
+        column: String,
+        /// Header of the column that is used.
+        chosen: String,
+    },
     /// A speed whose header has the unit Hz.
     SpeedInHz {
         /// Header of the column.
@@ -76,6 +88,10 @@ impl TableNote {
             Self::UnitMissing { .. } => {
                 "if hovertone should use this column, write the unit into its name, as in thrust_g or torque_n_m"
             }
+            Self::Expanded { .. } => {
+                "if they are standard uncertainties (k = 1), write std into the name, as in thrust_std_g"
+            }
+            Self::SecondStd { .. } => "if hovertone should use this column, remove the other column",
             Self::SpeedInHz { .. } => {
                 "if it is the frequency of a tone, divide it by the tones per turn (the number of blades); name the column speed_rev_s"
             }
@@ -96,6 +112,15 @@ impl fmt::Display for TableNote {
         match self {
             Self::UnitMissing { column } => {
                 write!(f, "column \"{column}\" is not used: its name has no unit that hovertone knows")
+            }
+            Self::Expanded { column } => {
+                write!(
+                    f,
+                    "column \"{column}\" is read as expanded uncertainties with k = 2, so its numbers are divided by 2"
+                )
+            }
+            Self::SecondStd { column, chosen } => {
+                write!(f, "column \"{column}\" is not used: the uncertainty comes from column \"{chosen}\"")
             }
             Self::SpeedInHz { column } => {
                 write!(f, "column \"{column}\" is read as turns of the rotor per second")

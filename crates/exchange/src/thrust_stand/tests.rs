@@ -212,3 +212,15 @@ fn a_note_about_rows_belongs_to_their_group() {
     let in_hz = table_from_csv("speed_hz,thrust_g\n50,100\n60,150\n").unwrap();
     assert_eq!(in_hz.notes, [TableNote::SpeedInHz { column: "speed_hz".to_owned() }]);
 }
+
+#[test]
+fn an_expanded_uncertainty_is_halved_and_said() {
+    for header in ["thrust_expanded_uncertainty_g", "U_thrust_g", "thrust_uncertainty_k2_g", "thrust_g_std_k=2"] {
+        let table = table_from_csv(&format!("rpm,thrust_g,{header}\n3000,100,2\n4000,180,3\n")).unwrap();
+        assert!((table.groups[0].rows[0].force_std.unwrap() - 1e-3 * 9.80665).abs() < 1e-9, "{header}");
+        assert_eq!(table.notes, [TableNote::Expanded { column: header.to_owned() }]);
+    }
+    let two = table_from_csv("rpm,thrust_g,thrust_std_g,thrust_uncertainty_g\n3000,100,1,2\n4000,180,1,3\n").unwrap();
+    assert!((two.groups[0].rows[0].force_std.unwrap() - 1e-3 * 9.80665).abs() < 1e-9);
+    assert!(matches!(&two.notes[..], [TableNote::SecondStd { .. }]), "{:?}", two.notes);
+}

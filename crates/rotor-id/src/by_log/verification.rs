@@ -94,11 +94,7 @@ fn verification_from_log(
     let Some(&best) = places.first() else {
         return Err(offsets_s.map_or(NotVerified::NoOverlap, |_| NotVerified::NoOverlapAtOffset));
     };
-    let elsewhere = places.iter().find(|place| (place.offset_s - best.offset_s).abs() > ELSEWHERE_S);
-    // steady speeds fit anywhere
-    let is_worse = |cost: f64| cost.is_finite() && cost > ELSEWHERE_FACTOR * best.cost;
-    let is_offset_told = elsewhere.is_some_and(|place| is_worse(place.cost))
-        && is_worse(comparison.cost_of_constants(best.offset_s, FINE_POINTS));
+    let is_offset_told = comparison.tells(&places);
     // where the speeds show no offset, none is the simplest
     let calm_s = offsets_s.map_or(0.0, |[low_s, high_s]| f64::midpoint(low_s, high_s));
     let is_calm_as_good = !is_offset_told && comparison.cost(calm_s, FINE_POINTS) <= ELSEWHERE_FACTOR * best.cost;
@@ -107,7 +103,9 @@ fn verification_from_log(
     // a fit that is hardly better outside of the limits tells nothing
     let is_better_outside =
         || comparison.cost(offset_s, COARSE_POINTS) > ELSEWHERE_FACTOR * comparison.cost(fine_s, COARSE_POINTS);
-    let better_offset_s = (fine_s != offset_s && is_better_outside()).then_some(fine_s);
+    let better_offset_s = (fine_s != offset_s && is_better_outside())
+        .then_some(fine_s)
+        .or_else(|| comparison.better_than(offset_s, offsets_s?));
     let mut rotors = comparison.rotors(offset_s);
     rotors.iter_mut().for_each(|rotor| rotor.track = indices[rotor.track]);
     let heard: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s).sum();
@@ -181,6 +179,23 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
+    /// Whether the speeds tell the offset that is the best of these: steady speeds fit anywhere.
+    fn tells(&self, places: &[Place]) -> bool {
+        let Some(best) = places.first() else { return false };
+        let is_worse = |cost: f64| cost.is_finite() && cost > ELSEWHERE_FACTOR * best.cost;
+        let elsewhere = places.iter().find(|place| (place.offset_s - best.offset_s).abs() > ELSEWHERE_S);
+        elsewhere.is_some_and(|place| is_worse(place.cost))
+            && is_worse(self.cost_of_constants(best.offset_s, FINE_POINTS))
+    }
+
+    /// The offset outside of the limits that the speeds tell, where the log fits clearly better there.
+    fn better_than(&self, offset_s: f64, [low_s, high_s]: [f64; 2]) -> Option<f64> {
+        let places = self.best_places(&self.offsets(None).ok()?);
+        let best = places.first().filter(|best| !(low_s..=high_s).contains(&best.offset_s))?;
+        let is_clear = self.cost(offset_s, FINE_POINTS) > ELSEWHERE_FACTOR * best.cost;
+        (is_clear && self.tells(&places)).then_some(best.offset_s)
+    }
+
     fn offsets(&self, limits_s: Option<[f64; 2]>) -> Result<Vec<f64>, NotVerified> {
         let (Some(&log_from_s), Some(&log_to_s)) = (self.log.time_s.first(), self.log.time_s.last()) else {
             return Err(NotVerified::NoOverlap);

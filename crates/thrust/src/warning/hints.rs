@@ -27,7 +27,7 @@ impl ThrustWarning {
                 "check that each recording is under the right [[load]]; if so, check it alone with `hovertone speed`"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
-                "do not use this constant: the masses may be ten times too large or too small, so check their decimal points and units; check the name of the vehicle too"
+                "do not use this constant: the masses may be ten times too large or too small, so check their decimal points and units; a load needs its mass as flown, with the vehicle; check the name of the vehicle too"
             }
             Self::MassFarFromKnown { .. } => {
                 "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"

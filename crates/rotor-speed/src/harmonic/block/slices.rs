@@ -78,7 +78,7 @@ impl BlockSlices {
             turned.clear();
             turned.extend(ticks.map(|(z, phasor)| z * phasor));
             sum_chunks(&turned, per_slice, sums);
-            sum_chunks(&turned, HALF_HOP_TICKS, half_hops);
+            sum_half_hops(&turned, half_hops);
             let turn_back = |(sum, speed): (&mut Complex<f64>, &f64)| *sum *= small_turn(speed * half_sample);
             sums.iter_mut().zip(&of_slices).for_each(turn_back);
             half_hops.iter_mut().zip(&of_halves).for_each(turn_back);
@@ -234,4 +234,13 @@ fn slice_times_s(ticks: usize, per_slice: usize, tick_s: f64) -> Vec<f64> {
 /// Sums of `per_sum` values each.
 fn sum_chunks(values: &[Complex<f64>], per_sum: usize, sums: &mut [Complex<f64>]) {
     sums.iter_mut().zip(values.chunks(per_sum)).for_each(|(sum, values)| *sum = values.iter().sum());
+}
+
+/// Sums of a half hop each: their length is known before, so that there is no inner loop.
+fn sum_half_hops(values: &[Complex<f64>], sums: &mut [Complex<f64>]) {
+    let (whole, rest) = values.as_chunks::<HALF_HOP_TICKS>();
+    sums.iter_mut().zip(whole).for_each(|(sum, values)| *sum = values.iter().sum());
+    if let Some(last) = sums.get_mut(whole.len()) {
+        *last = rest.iter().sum();
+    }
 }
