@@ -52,6 +52,9 @@ pub(crate) trait SpeedAt {
     /// The speed at a time; `None` where the review has none.
     fn speed_rev_s_at(&self, time_s: f64) -> Option<f64>;
 
+    /// Its standard uncertainty.
+    fn std_uncertainty_rev_s_at(&self, time_s: f64) -> Option<f64>;
+
     /// The mean speed of all rotors.
     fn mean_rev_s(&self) -> f64;
 }
@@ -69,6 +72,34 @@ pub(crate) struct Follower {
     review_odd_height: f64,
     /// Mean speed in the review over that of the pattern: the middle of the lines of rotors that are not told apart is not their mean.
     scale: f64,
+    /// Standard uncertainty of an answer: how far answers over the sound of the review are from the speed that the review found at those moments.
+    answer_std_rev_s: f64,
+}
+
+/// Sums over answers a and the speeds s of the review at the same moments.
+#[derive(Default)]
+struct Misses {
+    count: f64,
+    answers: f64,
+    products: f64,
+    speeds: f64,
+    variances: f64,
+}
+
+impl Misses {
+    fn add(&mut self, answer_rev_s: f64, speed_rev_s: f64, std_rev_s: f64) {
+        self.count += 1.0;
+        self.answers += answer_rev_s * answer_rev_s;
+        self.products += answer_rev_s * speed_rev_s;
+        self.speeds += speed_rev_s * speed_rev_s;
+        self.variances += std_rev_s * std_rev_s;
+    }
+
+    /// Root of the mean square of `scale a − s`, with the uncertainty of s.
+    fn std_rev_s(&self, scale: f64) -> f64 {
+        let squares = scale * scale * self.answers - 2.0 * scale * self.products + self.speeds;
+        ((squares.max(0.0) + self.variances) / self.count.max(1.0)).sqrt()
+    }
 }
 
 impl Follower {
@@ -103,10 +134,19 @@ impl Follower {
             odd_height: 0.0,
             review_odd_height: 0.0,
             scale: 1.0,
+            answer_std_rev_s: 0.0,
         };
+        let mut misses = Misses::default();
         let (mut heights, mut odd_heights, mut followed_rev_s) = (0.0, 0.0, 0.0);
         follower.stft.restart(start_s);
-        follower.push_with(sound, &mut |centre_s, seen| {
+        follower.push_with(sound, &mut |centre_s, seen, answer| {
+            // an answer is for the end of its last frame
+            let now_s = centre_s + FRAME_S / 2.0;
+            if let (Some(answer), Some(speed_rev_s), Some(std_rev_s)) =
+                (answer, speeds.speed_rev_s_at(now_s), speeds.std_uncertainty_rev_s_at(now_s))
+            {
+                misses.add(answer.speed_rev_s, speed_rev_s, std_rev_s);
+            }
             if speeds.speed_rev_s_at(centre_s).is_some() {
                 heights += seen.height;
                 odd_heights += seen.odd_height;
@@ -116,15 +156,16 @@ impl Follower {
         let frames = at_review.len() as f64;
         (follower.review_height, follower.review_odd_height) = (heights / frames, odd_heights / frames);
         follower.scale = speeds.mean_rev_s() * frames / followed_rev_s;
+        follower.answer_std_rev_s = misses.std_rev_s(follower.scale);
         Some(follower)
     }
 
     /// Takes in the next samples. Allocates nothing.
     pub(crate) fn push(&mut self, samples: &[f32]) {
-        self.push_with(samples, &mut |_, _| {});
+        self.push_with(samples, &mut |_, _, _| {});
     }
 
-    fn push_with(&mut self, samples: &[f32], on_seen: &mut dyn FnMut(f64, SeenPattern)) {
+    fn push_with(&mut self, samples: &[f32], on_seen: &mut dyn FnMut(f64, SeenPattern, Option<MeanSpeed>)) {
         let Self { stft, pattern, mean, height, odd_height, .. } = self;
         stft.push(samples, |frame| {
             let seen = pattern.follow(frame.power);
@@ -135,13 +176,18 @@ impl Follower {
             }
             *height += (seen.height - *height) / HEIGHT_FRAMES;
             *odd_height += (seen.odd_height - *odd_height) / HEIGHT_FRAMES;
-            on_seen(frame.centre_s, seen);
+            on_seen(frame.centre_s, seen, mean.last());
         });
     }
 
     /// The speed now. `None` where the rotors are lost.
     pub(crate) fn now(&mut self) -> Option<MeanSpeed> {
-        if self.is_lost() { None } else { self.mean.now().map(|mean| mean.scaled(self.scale)) }
+        if self.is_lost() {
+            return None;
+        }
+        let MeanSpeed { speed_rev_s, std_uncertainty_rev_s, frame_count } = self.mean.now()?.scaled(self.scale);
+        let std_uncertainty_rev_s = std_uncertainty_rev_s.max(self.answer_std_rev_s);
+        Some(MeanSpeed { speed_rev_s, std_uncertainty_rev_s, frame_count })
     }
 
     /// Whether the rotors are no longer heard, or only the even half of their lines: then they turn at twice the followed speed, after a step.

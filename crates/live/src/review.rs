@@ -85,6 +85,12 @@ impl SpeedAt for HeardRotors {
         is_hover.then_some(before.speed_rev_s + share * (behind.speed_rev_s - before.speed_rev_s))
     }
 
+    fn std_uncertainty_rev_s_at(&self, time_s: f64) -> Option<f64> {
+        let behind = self.track.partition_point(|point| point.time_s < time_s);
+        let (before, behind) = (self.track.get(behind.checked_sub(1)?)?, self.track.get(behind)?);
+        Some(before.std_uncertainty_rev_s.max(behind.std_uncertainty_rev_s))
+    }
+
     fn mean_rev_s(&self) -> f64 {
         self.speed_rev_s
     }

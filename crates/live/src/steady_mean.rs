@@ -101,6 +101,11 @@ impl SteadyMean {
         self.answers[LATER_FRAMES - 1] = self.agreed();
     }
 
+    /// The answer at the last frame, with the uncertainty by the noise alone.
+    pub(crate) fn last(&self) -> Option<MeanSpeed> {
+        self.answers[LATER_FRAMES - 1]
+    }
+
     /// Frames that share no sound among so many that follow each other.
     fn independent(&self, frame_count: usize) -> f64 {
         (frame_count as f64 / self.apart as f64).max(1.0)

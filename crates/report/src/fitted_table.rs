@@ -88,9 +88,7 @@ pub fn fitted_tables_json(tables: &[FittedTable]) -> Result<String, serde_json::
 /// The result and the laws beside it.
 pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let constant = table.thrust_constant_per_rotor_n_s2;
-    let meaning = constant
-        .std_uncertainty
-        .map_or("± is not known", |_| "k = 2; the calibration of the scale and of the tachometer is not in it");
+    let meaning = constant.std_uncertainty.map_or("± is not known", |_| "k = 2");
     let left_out = match table.fit.points.iter().filter(|point| point.is_gross).count() {
         0 => String::new(),
         count => format!(", {count} of them left out of the fit"),
@@ -112,6 +110,10 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
         laws_text(&table.fit, width),
         quoted(constant),
     );
+    if constant.std_uncertainty.is_some() {
+        text +=
+            "an error of the calibration of scale or tachometer is common to all rows, so this ± does not contain it\n";
+    }
     if let Some(both) = table.thrust_coefficients {
         text += &format!(
             "thrust coefficient C_T = {} as for propellers, T/(ρ n² D⁴); {} as for helicopters, T/(ρ A (ωR)²); T is the thrust of one rotor, in air of {} kg/m³\n",

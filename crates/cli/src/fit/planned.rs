@@ -6,7 +6,7 @@ use crate::place::refuse_height_alone;
 use crate::terminal::Terminal;
 use hovertone::thrust::{BudgetInput, Gravity, PlanError, PlanWish, ThrustSettings, flight_plan};
 use hovertone_report::flight_plan_text;
-use hovertone_vehicle::{KnownRotor, QuantityError};
+use hovertone_vehicle::{KnownRotor, QuantityError, check_diameter};
 
 /// Most multirotors safely carry a quarter of their mass.
 const ADDED_MASS_SHARE: f64 = 0.25;
@@ -29,6 +29,8 @@ pub(super) fn plan_campaign(
         rotor_count: Some(rotor_count),
         ..KnownRotor::default()
     };
+    let diameter_m = arguments.air.diameter_m;
+    diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
     flown.check_hover()?;
     let wish = PlanWish {
         wanted_share: asked.wanted_share,

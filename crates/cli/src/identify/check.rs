@@ -169,18 +169,16 @@ fn wishes_of(experiment: &Experiment, is_typed: bool) -> Vec<Notice> {
 }
 
 fn verdict(faults: usize, warnings: usize, output: Option<&Path>) -> String {
+    let first = if warnings > 0 { "See to the warnings above, then run" } else { "Now run" };
     match (faults, output) {
-        (0, _) if warnings > 0 => {
-            "all files are there. First see to the warnings above, then run the same command without --check\n"
-                .to_owned()
-        }
         (0, Some(folder)) => format!(
-            "ready: all files are there. Now run the same command without --check; it writes the results into {}\n",
+            "ready: all files are there. {first} the same command without --check; it writes the results into {}\n",
             folder.display()
         ),
         (0, None) => {
-            "ready: all files are there. Now run the same command without --check, and add -o DIR for the report\n"
-                .to_owned()
+            format!(
+                "ready: all files are there. {first} the same command without --check, and add -o DIR for the report\n"
+            )
         }
         (faults, _) => format!("not ready: {}\n", counted(faults, "error")),
     }

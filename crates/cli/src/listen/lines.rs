@@ -11,8 +11,7 @@ const SPEEDS_PER_LINE: usize = 10;
 /// Digits of a speed that is one of several.
 const DIGITS: usize = 3;
 /// Names of the columns, above the first line.
-const HEAD: &str =
-    "      time       level  mean speed of the rotors (± covers 95 % of cases; 0 dB: the loudest possible sine)\n";
+const HEAD: &str = "      time       level  mean speed of the rotors (± is k = 2; 0 dB: the loudest possible sine)\n";
 
 /// One line of JSON.
 pub(crate) fn json_line(speed: &LiveSpeed, listener: &Listener) -> Result<String, Failure> {

@@ -233,8 +233,8 @@ mod tests {
     /// Sound without a rotor may resemble one for some seconds.
     #[test]
     fn a_mean_is_of_a_speed_that_was_held_and_that_was_clear_for_longer_than_several_were_possible() {
-        let brief = "no mean: one speed was clear in only 2.4 s of 10.0 s; a mean needs one speed for 3 s without a gap: hover for longer, or \
-                     place the microphone nearer\n";
+        let brief = "no mean: one speed was clear in only 2.4 s of 10.0 s, and for 2.4 s without a gap; a mean needs 3 s without a gap, or most of the \
+                     sound. So short a speed may come from another sound; if it is a rotor, hold one speed for longer, or place the microphone nearer\n";
         assert_eq!(told(&[(Listening, 20), (NoRotorTone, 20), (Ok, 24), (NoRotorTone, 36)]), brief);
         assert!(told(&[(Listening, 20), (NoRotorTone, 20), (Ok, 31), (NoRotorTone, 129)]).starts_with("mean: "));
         let pieces = [(Ok, 20), (NoRotorTone, 50), (Ok, 20)];

@@ -94,7 +94,10 @@ fn verification_from_log(
     let Some(&best) = places.first() else {
         return Err(offsets_s.map_or(NotVerified::NoOverlap, |_| NotVerified::NoOverlapAtOffset));
     };
-    let is_offset_told = comparison.tells(&places);
+    let everywhere = offsets_s.and_then(|_| Some(comparison.best_places(&comparison.offsets(None).ok()?)));
+    let is_offset_told = comparison.tells(everywhere.as_ref().unwrap_or(&places));
+    let told_outside = everywhere.as_ref().and_then(|places| comparison.told_outside(places, offsets_s?));
+    let is_offset_told = is_offset_told && told_outside.is_none();
     // where the speeds show no offset, none is the simplest
     let calm_s = offsets_s.map_or(0.0, |[low_s, high_s]| f64::midpoint(low_s, high_s));
     let is_calm_as_good = !is_offset_told && comparison.cost(calm_s, FINE_POINTS) <= ELSEWHERE_FACTOR * best.cost;
@@ -103,9 +106,10 @@ fn verification_from_log(
     // a fit that is hardly better outside of the limits tells nothing
     let is_better_outside =
         || comparison.cost(offset_s, COARSE_POINTS) > ELSEWHERE_FACTOR * comparison.cost(fine_s, COARSE_POINTS);
-    let better_offset_s = (fine_s != offset_s && is_better_outside())
-        .then_some(fine_s)
-        .or_else(|| comparison.better_than(offset_s, offsets_s?));
+    let better_offset_s = (fine_s != offset_s && is_better_outside()).then_some(fine_s).or_else(|| {
+        let outside = told_outside?;
+        (comparison.cost(offset_s, FINE_POINTS) > ELSEWHERE_FACTOR * outside.cost).then_some(outside.offset_s)
+    });
     let mut rotors = comparison.rotors(offset_s);
     rotors.iter_mut().for_each(|rotor| rotor.track = indices[rotor.track]);
     let heard: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s).sum();
@@ -188,12 +192,11 @@ impl Comparison<'_> {
             && is_worse(self.cost_of_constants(best.offset_s, FINE_POINTS))
     }
 
-    /// The offset outside of the limits that the speeds tell, where the log fits clearly better there.
-    fn better_than(&self, offset_s: f64, [low_s, high_s]: [f64; 2]) -> Option<f64> {
-        let places = self.best_places(&self.offsets(None).ok()?);
-        let best = places.first().filter(|best| !(low_s..=high_s).contains(&best.offset_s))?;
-        let is_clear = self.cost(offset_s, FINE_POINTS) > ELSEWHERE_FACTOR * best.cost;
-        (is_clear && self.tells(&places)).then_some(best.offset_s)
+    /// The best of all places, where the speeds tell it and it lies outside of the limits.
+    fn told_outside(&self, places: &[Place], [low_s, high_s]: [f64; 2]) -> Option<Place> {
+        let best = *places.first()?;
+        let is_outside = best.offset_s < low_s - OFFSET_STEP_S || best.offset_s > high_s + OFFSET_STEP_S;
+        (is_outside && self.tells(places)).then_some(best)
     }
 
     fn offsets(&self, limits_s: Option<[f64; 2]>) -> Result<Vec<f64>, NotVerified> {
