@@ -128,7 +128,7 @@ fn change(
     terminal.say(&written(place));
     if let Some(expanded_n_s2) = rotor.expanded_uncertainty_n_s2 {
         let percent = fixed(100.0 * expanded_n_s2 / rotor.thrust_constant_n_s2, 1);
-        terminal.say(&format!("the constant is right within ± {percent} % (k = 2)"));
+        terminal.say(&format!("± of the constant: {percent} % (k = 2)"));
     }
     if let Some(notice) = stale_comments(&updated.lines_with_old_number()) {
         terminal.warning(&notice, "");

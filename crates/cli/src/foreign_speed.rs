@@ -63,10 +63,8 @@ pub(crate) fn advise_by_constant(record: &mut SpeedRecord, heard: &HeardTone, ty
 
 /// Why the rotors of a constant are not heard, and what to do. `None` where flags name the tone and no other rotor is heard.
 fn why_not_heard(instead: Option<OtherRotor>, [low, high]: [f64; 2], flags: &[&str]) -> Option<String> {
-    let not_heard = format!(
-        "no rotor is heard at {low:.0} to {high:.0} rev/s, the speeds of the rotors with which the constant was \
-        measured"
-    );
+    let not_heard =
+        format!("no rotor is heard at {low:.0} to {high:.0} rev/s, where the rotors of the constant are searched for");
     let Some(OtherRotor { blades, speed_rev_s }) = instead else {
         return flags.is_empty().then(|| format!("{not_heard}; {OTHER_VEHICLE}, or move the microphone nearer"));
     };

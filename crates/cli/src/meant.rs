@@ -19,7 +19,10 @@ pub(crate) fn number_meant(value: &str) -> Option<(&'static str, String)> {
     }
     let percent: f64 =
         with_point(value.strip_suffix('%')?).as_deref().or(value.strip_suffix('%'))?.trim().parse().ok()?;
-    Some(("a share is a number without a percent sign", format!("write {}", percent / 100.0)))
+    Some((
+        "a number without a percent sign is needed",
+        format!("write {} for a share, or {} in millionths (ppm)", percent / 100.0, 1e4 * percent),
+    ))
 }
 
 /// The number that a comma stands in, with a point; also of a number with a unit, and of numbers with a colon between them.

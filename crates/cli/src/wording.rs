@@ -128,6 +128,7 @@ mod tests {
         }
         let drawn = IN_PICTURE.of(apart(true).hint());
         assert!(drawn.starts_with("if fewer rotors turn, give their number with --rotors;"), "{drawn}");
+        assert!(!Wording::IN_FLIGHT.of(apart(true).hint()).contains("on a bench"));
         let in_file = Wording::IN_EXPERIMENT.of(apart(true).hint());
         assert!(in_file.contains("on a bench, write rotors_running = N under its [[load]]"), "{in_file}");
     }

@@ -3,7 +3,9 @@
 use crate::follower::SpeedAt;
 use crate::octave::PossibleSpeed;
 use crate::settings::LiveConfig;
-use hovertone_analysis::{NoTone, Outcome, Reading, RotorTone, Span, SpeedAnalysis, TrackPoint, Warning};
+use hovertone_analysis::{
+    Method, NoTone, Outcome, Reading, RotorTone, RotorsHeard, Span, SpeedAnalysis, TrackPoint, Warning,
+};
 use hovertone_rotor_speed::{Config, Error, FoundSpeed, blades_known, speed_from_source, tones_from_source};
 use hovertone_signal::Signal;
 
@@ -36,7 +38,8 @@ pub(crate) struct HeardRotors {
 impl HeardRotors {
     /// `None` where the tone has no speed. `alternatives`: the possible readings, most plausible first; empty where one is decided.
     fn of(tone: RotorTone, hover: Vec<Span>, alternatives: &[Reading], config: Config) -> Option<Self> {
-        let speed = tone.speed(config.method)?;
+        let config_method = config.method;
+        let speed = tone.speed(config_method)?;
         let speed_rev_s = speed.speed.rev_s();
         Some(Self {
             speed_rev_s,
@@ -46,7 +49,7 @@ impl HeardRotors {
             doubts: Vec::new(),
             config,
             hover,
-            track: tone.track,
+            track: track_of(tone, config_method),
         })
     }
 
@@ -54,6 +57,14 @@ impl HeardRotors {
     pub(crate) fn followed_order(&self) -> f64 {
         let tone = &self.config.tone;
         blades_known(tone).map_or(tone.order.lines_per_turn(), f64::from)
+    }
+}
+
+/// The speed over time. That of a group is its mean, and each point has the spread of its rotors.
+fn track_of(tone: RotorTone, method: Method) -> Vec<TrackPoint> {
+    match tone.rotors_heard(method) {
+        Some(RotorsHeard::Group) => tone.tracks_beside_log(method).swap_remove(0).into_owned(),
+        _ => tone.track,
     }
 }
 

@@ -162,7 +162,7 @@ mod tests {
         assert_eq!((fixed(-0.001, 2), fixed(-1.5, 1), fixed(-0.0, 0)), ("0.00".into(), "−1.5".into(), "0".into()));
         assert_eq!(
             (signed(-0.001, 2), signed(-0.5, 2), signed(0.25, 2)),
-            ("+0.00".into(), "−0.50".into(), "+0.25".into())
+            ("0.00".into(), "−0.50".into(), "+0.25".into())
         );
         assert_eq!(significant(-0.25, 3), "−0.250");
     }

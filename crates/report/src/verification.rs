@@ -131,7 +131,7 @@ pub fn small_plus_minus(found: &Verification) -> Option<Notice> {
         _ if !found.is_right() || !found.passes() => None,
         Agreement::PlusMinusTooSmall => Some(Notice::new(
             format!("the ± is too small: {few}"),
-            "use the mean speeds; do not rely on the ± of the speed at a single moment",
+            "check that the log is of this flight; if it is, use the mean speeds, and do not rely on the ± of the speed at a single moment",
         )),
         Agreement::AsStated if found.coverage() < COVERAGE_OF_HALF => Some(Notice::new(
             format!("the ± may be too small: {few}. There are too few points to be sure"),

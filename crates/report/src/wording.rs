@@ -11,7 +11,12 @@ pub struct Wording {
     pub keys: &'static [ExperimentKey],
     /// Whether each recording belongs to a load, whose mass cannot be left out.
     pub has_loads: bool,
+    /// Whether all loads hover: then all rotors of the vehicle turn.
+    pub is_flight: bool,
 }
+
+/// Advice that means nothing in a hover.
+const FEWER_ROTORS: &str = "if fewer rotors turn, give their number with --rotors; ";
 
 /// In place of the advice to hear one rotor in a band: the loads of an experiment have their tones in different bands.
 pub const ONE_BAND_FOR_ALL: &str = "; a nearer microphone may help to separate the rotors";
@@ -48,17 +53,21 @@ impl Wording {
         ],
         keys: &ExperimentKey::ALL,
         has_loads: true,
+        is_flight: false,
     };
+
+    /// The same, where all loads hover.
+    pub const IN_FLIGHT: Self = Self { is_flight: true, ..Self::IN_EXPERIMENT };
 
     /// Some phrases alone.
     pub const fn of_phrases(phrases: &'static [(&'static str, &'static str)]) -> Self {
-        Self { phrases, keys: &[], has_loads: false }
+        Self { phrases, keys: &[], has_loads: false, is_flight: false }
     }
 
     /// The advice in these words.
     pub fn of(self, advice: &str) -> String {
-        let in_phrases =
-            self.phrases.iter().fold(advice.to_owned(), |advice, (flag, words)| advice.replace(flag, words));
+        let advice = if self.is_flight { advice.replace(FEWER_ROTORS, "") } else { advice.to_owned() };
+        let in_phrases = self.phrases.iter().fold(advice, |advice, (flag, words)| advice.replace(flag, words));
         self.keys.iter().fold(in_phrases, |advice, key| key.in_place_of_flag(&advice))
     }
 }

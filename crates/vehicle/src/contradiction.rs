@@ -12,7 +12,7 @@ pub(crate) const HOVER_REV_S_MIN: f64 = 10.0;
 
 /// Diameters of so many metres and more were read in inches: the largest propellers of multirotors have 1.6 m. *Physics.*
 const INCHES_MIN: f64 = 3.0;
-/// Fewest teeth of the wheel on a rotor: pinions have six or more, and the gear halves the speed at least.
+/// Fewest teeth of the wheel on a rotor: pinions have six or more, and the gear halves the speed at least. *Physics.*
 const WHEEL_TEETH_MIN: u32 = 12;
 
 /// Two statements of which one must be wrong.

@@ -73,7 +73,7 @@ fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
         false => {
-            "the means of all rotors are compared, because the rotors are not separated in both archives (leave --mean-only out of `hovertone batch` to separate them; of one rotor that ran \
+            "the means of all rotors are compared, because the rotors are not separated in both archives (`hovertone batch` without --mean-only separates them where it can; of one rotor that ran \
             alone, the mean is its speed)\n"
         }
     }
@@ -130,9 +130,7 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
         table.push(cells);
     }
     let disagree = match drift.rotors.iter().any(|row| row.change.is_rotor_known && !row.change.has_changed) {
-        true => {
-            "recordings have changed by themselves, but they do not agree on one change: the list says more than the mean\n"
-        }
+        true => "single recordings have changed, but by different amounts: use the list, not the mean\n",
         false => "",
     };
     let more = match changed.len().saturating_sub(RECORDINGS_MAX) {

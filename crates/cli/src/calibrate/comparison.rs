@@ -168,7 +168,12 @@ pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Opt
         slip => format!("{slip} times the known speed"),
     };
     let slip = [2.0, 3.0, 4.0, 0.5].into_iter().find(|slip| is_near(*slip, SLIP_SHARE));
-    let checked = |slip| format!("; about {about} rpm are heard, {}: check the number of blades", of_known(slip));
+    let checked = |slip| {
+        format!(
+            "; about {about} rpm are heard, {}: check the number of blades, also in the settings of the tachometer",
+            of_known(slip)
+        )
+    };
     Some(slip.map_or_else(|| format!("; about {about} rpm are heard"), checked))
 }
 

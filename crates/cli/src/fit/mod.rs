@@ -71,7 +71,15 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
     }
     let (mut is_first, mut ending) = (true, Ending::Done);
     for path in &arguments.tables {
-        let tables = fitted_tables(path, &plan)?;
+        let tables = match fitted_tables(path, &plan) {
+            Err(failure) if arguments.tables.len() > 1 => {
+                terminal.flush()?;
+                terminal.failure(&failure);
+                ending = ending.max(Ending::FilesFailed);
+                continue;
+            }
+            tables => tables?,
+        };
         let is_alone = tables.len() == 1 && arguments.tables.len() == 1;
         ending = ending.max(ending_of(&tables));
         for table in tables {
@@ -154,14 +162,7 @@ fn fitted_table(
         air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
     let mut warnings = warnings_of_rows(group, &points, &fit, is_weighed.then_some(plan.gravity.m_s2));
     let figure_of_merit = merit_of(group, &points, rotor_count, plan);
-    warnings.extend(figure_of_merit.filter(|merit| !is_plausible_merit(*merit)).map(|figure_of_merit| {
-        ThrustWarning::ImplausibleFigureOfMerit { name: "at the largest thrust".to_owned(), figure_of_merit }
-    }));
-    warnings.extend(
-        coefficients
-            .filter(|both| !both.is_plausible)
-            .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller }),
-    );
+    warnings.extend(implausible(figure_of_merit, coefficients));
     let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m));
     let too_strong = of_any_air()
         .or_else(|| too_large_notice(per_rotor))
@@ -195,7 +196,7 @@ fn fitted_table(
         propeller_diameter_m: plan.diameter_m,
         figure_of_merit,
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
-        forbids_use: warnings.iter().any(ThrustWarning::forbids_use),
+        forbids_use: is_too_strong || warnings.iter().any(ThrustWarning::forbids_use),
         is_incomplete: is_too_strong || warnings.iter().any(ThrustWarning::makes_incomplete),
         notices: notes
             .chain(too_strong)
@@ -208,6 +209,20 @@ fn fitted_table(
             .collect(),
         fit,
     })
+}
+
+/// The warnings about numbers that no propeller has.
+fn implausible(
+    figure_of_merit: Option<f64>,
+    coefficients: Option<ThrustCoefficients>,
+) -> impl Iterator<Item = ThrustWarning> {
+    let merit = figure_of_merit.filter(|merit| !is_plausible_merit(*merit)).map(|figure_of_merit| {
+        ThrustWarning::ImplausibleFigureOfMerit { name: "at the largest thrust".to_owned(), figure_of_merit }
+    });
+    let coefficient = coefficients
+        .filter(|both| !both.is_plausible)
+        .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller });
+    merit.into_iter().chain(coefficient)
 }
 
 fn is_stated(group: &StandGroup) -> bool {

@@ -2,14 +2,12 @@
 
 use crate::failure::Failure;
 use crate::listen::advice::Advice;
-use hovertone::live::{Listener, LiveSpeed, LiveStatus};
-use hovertone_report::{fixed, significant};
+use hovertone::live::{Listener, LiveSpeed, LiveStatus, PossibleSpeed};
+use hovertone_report::fixed;
 use hovertone_workflow::{LiveLine, live_remark, live_status_in_words, live_words, possible_speeds_in_words};
 
 /// Live speeds of one second, of which a line of text tells the last.
 const SPEEDS_PER_LINE: usize = 10;
-/// Digits of a speed that is one of several.
-const DIGITS: usize = 3;
 /// Names of the columns, above the first line.
 const HEAD: &str = "      time       level  mean speed of the rotors (± is k = 2; 0 dB: the loudest possible sine)\n";
 
@@ -23,16 +21,21 @@ pub(crate) struct PlainLines {
     advice: Advice,
     count: usize,
     last_status: String,
+    /// The possible speeds that were told last: the rotors may be lost since.
+    last_possible: Vec<PossibleSpeed>,
 }
 
 impl PlainLines {
     pub(crate) fn new(advice: Advice) -> Self {
-        Self { advice, count: 0, last_status: String::new() }
+        Self { advice, count: 0, last_status: String::new(), last_possible: Vec::new() }
     }
 
     /// The line of a speed; `None` for those between. A remark is written where it changes.
     pub(crate) fn line(&mut self, speed: &LiveSpeed, listener: &Listener) -> Option<String> {
         self.count += 1;
+        if !listener.possible().is_empty() {
+            self.last_possible = listener.possible().to_vec();
+        }
         if !self.count.is_multiple_of(SPEEDS_PER_LINE) {
             return None;
         }
@@ -42,12 +45,7 @@ impl PlainLines {
         self.last_status = status;
         // a ± is that of one speed
         let (speeds, separator) = match speed.status {
-            LiveStatus::Ambiguous => {
-                let possible = possible_speeds_in_words(listener.possible(), speed.speed_rev_s);
-                // the rotors may be lost since
-                let followed = || Some(format!("{} rev/s or another", significant(speed.speed_rev_s?, DIGITS)));
-                (possible.or_else(followed), ": ")
-            }
+            LiveStatus::Ambiguous => (possible_speeds_in_words(&self.last_possible, speed.speed_rev_s), ": "),
             _ => (live_words(speed).map(|one| format!("{} ± {} rev/s", one.speed_rev_s, one.plus_minus_rev_s)), ", "),
         };
         let words = [speeds.unwrap_or_default(), now];

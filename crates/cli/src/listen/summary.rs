@@ -121,7 +121,9 @@ impl LiveSummary {
                     fixed(self.part_s(self.settled_count), 1)
                 )
             }
-            None if self.listening_count == self.count => format!("no speed: {end_s} s of sound are too short"),
+            None if self.listening_count == self.count => {
+                format!("no speed: {end_s} s of sound are too short; hear 3 s or more")
+            }
             None if self.ambiguous_count > 0 => format!("no single speed was heard in {end_s} s"),
             None => format!("no speed was heard in {end_s} s"),
         };
@@ -217,7 +219,7 @@ mod tests {
 
     #[test]
     fn what_is_not_settled_is_no_part_of_the_mean() {
-        assert_eq!(told(&[(Listening, 20)]), "no speed: 2.0 s of sound are too short\n");
+        assert_eq!(told(&[(Listening, 20)]), "no speed: 2.0 s of sound are too short; hear 3 s or more\n");
         let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds were possible; if a rotor sounds, give --rotors\n";
         assert_eq!(told(&[(Listening, 10), (Ambiguous, 20)]), none);
         let some = "mean: 60.00 ± 0.20 rev/s (± covers about 95 % of cases, k = 2), from 1.0 s of 3.0 s; for 1.0 s \

@@ -16,7 +16,8 @@ fn identify_names_keys_of_its_file_and_flags_of_its_own() {
     fs::write(&experiment, content).unwrap();
     let by_file = hovertone(&["identify", text(&experiment)]).ends_with(0);
     assert!(!by_file.stderr.contains("rotors = N"), "{}", by_file.stderr);
-    assert!(by_file.stderr.contains("on a bench, write rotors_running = N under its [[load]]"), "{}", by_file.stderr);
+    // all loads hover, so all rotors turn
+    assert!(!by_file.stderr.contains("bench") && by_file.stderr.contains("C_f uses the mean"), "{}", by_file.stderr);
     assert!(!by_file.stderr.contains("--"), "{}", by_file.stderr);
     let load = format!("413g={}", text(&sound));
     let by_flags = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(0);

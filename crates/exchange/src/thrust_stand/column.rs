@@ -105,7 +105,9 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
             index,
             header: header.to_owned(),
             quantity: known.map(|(quantity, _)| quantity),
-            is_words: known.is_none() && !records.is_empty() && cells().all(is_word),
+            is_words: known.is_none()
+                && !records.is_empty()
+                && (cells().all(is_word) || NAMED_PARTS.contains(&header.trim().to_lowercase().as_str())),
             lacks_unit: matches!(meaning, Meaning::UnknownUnit),
             lacks_quantity: matches!(meaning, Meaning::StdOfUnknown),
             is_share: matches!(meaning, Meaning::Share(_)),
@@ -157,6 +159,8 @@ const STD: [&str; 9] = ["std", "stddev", "stdev", "sd", "sigma", "uncertainty", 
 /// Words of masses that are parts and do not hover.
 const PARTS: [&str; 8] = ["motor", "prop", "propeller", "battery", "frame", "arm", "cell", "blade"];
 
+/// Headers of columns that name a part, also where a name is a number: a propeller 1045.
+const NAMED_PARTS: [&str; 4] = ["propeller", "prop", "motor", "esc"];
 /// Words of a rotor.
 const ROTOR: [&str; 4] = ["rotor", "prop", "propeller", "wheel"];
 

@@ -43,8 +43,11 @@ pub(crate) fn scatter_factor(agreement: Agreement, noise: PointNoise) -> Option<
     if noise.is_by_residuals() || disagrees() { agreement.scatter_factor() } else { Some(1.0) }
 }
 
-/// The same factor for a ±: where nothing but the scatter of few points shows their uncertainty, Student's factor is part of it.
+/// The same factor for a ±: where the scatter of few points shows their uncertainty, Student's factor is part of it. That is so, too, where they
+/// scatter more than stated.
 pub(crate) fn covering_factor(agreement: Agreement, noise: PointNoise) -> Option<f64> {
-    let few = if noise.is_by_residuals() { student_factor(agreement.degrees_of_freedom as f64) } else { 1.0 };
-    Some(few * scatter_factor(agreement, noise)?)
+    let scatter = scatter_factor(agreement, noise)?;
+    let is_by_scatter = noise.is_by_residuals() || scatter > 1.0;
+    let few = if is_by_scatter { student_factor(agreement.degrees_of_freedom as f64) } else { 1.0 };
+    Some(few * scatter)
 }
