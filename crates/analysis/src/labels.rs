@@ -244,7 +244,7 @@ impl fmt::Display for NotTold {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OtherCount { rotors, of_log } => {
-                write!(f, "the vehicle has {rotors} rotors, but the log has {of_log} motors")
+                write!(f, "the vehicle has {rotors} rotors, but the log has {of_log} motors, or outputs that change")
             }
             Self::TooManyRotors { rotors } => {
                 write!(f, "{rotors} rotors are too many to name: the limit is {}", LABELLED_ROTORS_MAX)

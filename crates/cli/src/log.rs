@@ -108,6 +108,8 @@ fn command_word() -> String {
 
 /// Beginnings of headers of a time, in some languages.
 const TIMES: [&str; 7] = ["time", "zeit", "temps", "tiempo", "tempo", "tijd", "sec"];
+/// Parts of headers of columns that hold names or counts.
+const NAMES: [&str; 7] = ["motor", "prop", "load", "name", "trial", "file", "recording"];
 /// Parts of headers of a rotor's speed, in some languages.
 const SPEEDS: [&str; 11] =
     ["rpm", "drehzahl", "umdreh", "u/min", "1/min", "upm", "speed", "vitesse", "velocidad", "giri", "toeren"];
@@ -119,20 +121,27 @@ fn example_of_columns(columns: &str) -> String {
     let is_any = |header: &str, names: &[&str]| names.iter().any(|name| header.to_lowercase().contains(name));
     let is_speed = |header: &str| is_any(header, &SPEEDS) || ["rad_s", "rev_s"].iter().any(|it| header.ends_with(it));
     let named = headers.iter().find(|header| is_any(header, &TIMES));
-    // the time is the first column of most logs
-    let time = named.or(headers.first()).copied().filter(|time| headers.len() > 1 && !is_speed(time));
+    // the time is the first column of most logs, unless it names a part or a load
+    let first = headers.first().filter(|header| !is_any(header, &NAMES));
+    let time = named.or(first).copied().filter(|time| headers.len() > 1 && !is_speed(time));
     let Some(time) = time.filter(|_| WITH_COLUMNS.contains(&command_word().as_str())) else { return String::new() };
     let column = |header: &str, name: &str| format!("--column {}", quoted(&format!("{header}={name}")));
     let command = format!("{} {}", typed_command(), column(time, "time_s"));
     match headers.iter().find(|header| **header != time && is_speed(header)) {
         Some(speed) => format!(
-            ". If \"{time}\" is the time in seconds (of milliseconds: time_ms in place of time_s) and \"{speed}\" the speed of a rotor in rpm: {command} {}",
-            column(speed, "rotor1_rpm")
+            ". If \"{time}\" is the time in seconds (of milliseconds: time_ms in place of time_s) and \"{speed}\" the speed of a rotor in {unit}: {command} {}",
+            column(speed, &format!("rotor1_{}", unit_of(speed))),
+            unit = unit_of(speed)
         ),
         None => {
             format!(". If \"{time}\" is the time in seconds (of milliseconds: time_ms in place of time_s): {command}")
         }
     }
+}
+
+/// The unit in the header of a speed; turns per minute where it has none.
+fn unit_of(header: &str) -> &'static str {
+    ["rev_s", "rad_s"].into_iter().find(|unit| header.ends_with(unit)).unwrap_or("rpm")
 }
 
 /// The failure of a recording in the place of a log.

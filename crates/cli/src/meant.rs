@@ -8,6 +8,9 @@ use std::path::Path;
 /// What is wrong with a decimal comma.
 pub(crate) const DECIMAL_SIGN: &str = "the decimal sign is a point";
 
+/// What is wrong with a percent sign.
+pub(crate) const SHARE_SIGN: &str = "a share is a number without a percent sign";
+
 /// A number with a decimal comma or a percent sign: what is wrong, and what to write.
 pub(crate) fn number_meant(value: &str) -> Option<(&'static str, String)> {
     if let Some(point) = with_point(value) {
@@ -19,10 +22,7 @@ pub(crate) fn number_meant(value: &str) -> Option<(&'static str, String)> {
     }
     let percent: f64 =
         with_point(value.strip_suffix('%')?).as_deref().or(value.strip_suffix('%'))?.trim().parse().ok()?;
-    Some((
-        "a number without a percent sign is needed",
-        format!("write {} for a share, or {} in millionths (ppm)", percent / 100.0, 1e4 * percent),
-    ))
+    Some((SHARE_SIGN, format!("write {}", percent / 100.0)))
 }
 
 /// The number that a comma stands in, with a point; also of a number with a unit, and of numbers with a colon between them.

@@ -3,7 +3,7 @@
 use crate::args::Arguments;
 use crate::conflicts::{advice, conflict_in_words, place_in_experiment};
 use crate::failure::Failure;
-use crate::meant::{DECIMAL_SIGN, flag_meant, number_meant, place_meant, results_meant, with_point};
+use crate::meant::{DECIMAL_SIGN, SHARE_SIGN, flag_meant, number_meant, place_meant, results_meant, with_point};
 use crate::missing::{argument_of_example, missing_in_words};
 use crate::nearest::nearest;
 use crate::see_help::{example_and_help, is_typed, typed_command};
@@ -88,6 +88,10 @@ impl Misuse {
                 let is_share_of_mass = name.starts_with("--mass") && value.ends_with('%');
                 let is_other = is_pair || is_share_of_mass || reason.contains("whole number");
                 match number_meant(&value).filter(|_| !is_other) {
+                    Some((SHARE_SIGN, _)) if name.contains("ppm") => Self {
+                        what: format!("{name} {value}: a number of millionths without a percent sign is needed"),
+                        hint: Some("1 % is 10000 millionths (ppm)".to_owned()),
+                    },
                     Some((why, hint)) => Self { what: format!("{name} {value}: {why}"), hint: Some(hint) },
                     None => Self { what: format!("{name} {value}: {reason}"), hint: None },
                 }

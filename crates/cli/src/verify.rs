@@ -69,6 +69,11 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
         Failure::failed(reason.to_string(), reason.hint(), blamed)
     })?;
     let passes = verification.passes();
+    let is_unknown = !verification.is_offset_told && !verification.is_offset_given;
+    if let Some([low_s, high_s]) = offsets_s.filter(|_| is_unknown) {
+        let what = format!("the limits {low_s}:{high_s} of --log-offset-s are too wide to count as a known offset");
+        terminal.warning(&Notice::new(what, "give limits at most 2 s apart"), "");
+    }
     // the text says it in its last line
     if let Some(notice) = small_plus_minus(&verification).filter(|_| arguments.json) {
         terminal.warning(&notice, "");

@@ -71,8 +71,11 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
     };
     let mut row = |law: ForceLaw, cells: [String; 3]| {
         // forces that are too alike to test the square law do not prefer it
-        let is_tested = law != ForceLaw::Square || fit.range.is_none_or(|range| range.shows_intercept);
-        let mark = if is_tested && preferred_law(fit) == Some(law) { " (preferred)" } else { "" };
+        let mark = if (law != ForceLaw::Square || is_tested(fit)) && preferred_law(fit) == Some(law) {
+            " (preferred)"
+        } else {
+            ""
+        };
         let [constant, intercept, exponent] = cells;
         text.push(vec![format!("{}{mark}", law.formula()), constant, intercept, exponent, probability(law)]);
     };
@@ -115,6 +118,9 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             significant(law.reference_rad_s, 5),
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
         ),
+        (Some(ForceLaw::Square), ..) if !is_tested(fit) => {
+            "the forces are too alike to prefer the most probable law\n".to_owned()
+        }
         _ if fit.laws.len() <= 1 && fit.points.len() == LAW_PARAMETERS => {
             format!("no other law is compared with {}: this needs three forces or more\n", ForceLaw::Square.formula())
         }
@@ -127,6 +133,11 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
         }
         _ => String::new(),
     }
+}
+
+/// Whether the forces are far enough apart to test the square law.
+fn is_tested(fit: &SquareLawFit) -> bool {
+    fit.range.is_none_or(|range| range.shows_intercept)
 }
 
 /// Whether a point that the fit uses does not fit the others.
@@ -159,7 +170,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
             fit.widening().map_or(String::new(), |factor| {
                 format!(
-                    "; therefore the ± of C_f is {} times as large as the stated uncertainties make it",
+                    "; therefore the ± of C_f is {} times as large as the stated uncertainties make it (by the scatter, and by Student's factor for few points)",
                     significant(factor, 2)
                 )
             })

@@ -29,6 +29,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
         let why_none = match () {
             () if !record.rotors().is_empty() => "",
             () if !are_blades_known => WITHOUT_BLADES,
+            () if is_short(record) => "not known: less than 4 s of the sound are used; record for longer",
             () if record.is_one_rotor() => {
                 "not known: no clear tone of the blades lasts 4 s; hold the speed for longer, or place the microphone nearer"
             }
@@ -52,6 +53,11 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
     Some(table_text(&table, width))
 }
 
+/// Whether less of the sound is used than a condition needs.
+fn is_short(record: &SpeedRecord) -> bool {
+    record.analysis().is_some_and(|analysis| analysis.hover.length_s() < CONDITION_S_MIN)
+}
+
 fn row(name: String, condition: &RotorCondition) -> Vec<String> {
     let between = condition.loudest_between();
     let missing: Vec<String> = condition.missing_harmonics.iter().map(u32::to_string).collect();
@@ -63,6 +69,9 @@ fn row(name: String, condition: &RotorCondition) -> Vec<String> {
         if missing.is_empty() { DASH.to_owned() } else { missing.join(", ") },
     ]
 }
+
+/// Length of a clear tone from which a condition is told, s.
+const CONDITION_S_MIN: f64 = 4.0;
 
 /// No level is told finer than this: a microphone's own response is known no better, dB.
 const LEVEL_STD_DB_MIN: f64 = 0.1;

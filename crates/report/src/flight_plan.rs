@@ -34,8 +34,8 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     let advice = match plan.largest {
         BudgetInput::LoudestRotor => {
-            "\nThis assumes that one tone is used for all rotors. If `hovertone speed` separates your rotors, or hears them \
-            as a group, add --rotors-separated."
+            "\nThis assumes that the tone of one rotor stands for all. If `hovertone speed` separates your rotors, or hears them \
+            as a group (then it knows their mean), add --rotors-separated: the ± is smaller."
         }
         BudgetInput::Gravity => "\nThe place of the flight makes this part smaller: plan again with --latitude-deg.",
         _ => "",

@@ -107,23 +107,27 @@ pub(crate) fn quoted(constant: Estimate) -> String {
 /// "rotors separated in 9 recordings, heard as a group in 6"; `None` where one tone is used for all. In `partly` of the recordings with separated
 /// rotors, some could not be separated.
 pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<String> {
-    let partly = partly.min(counts.separated);
-    let all = if partly > 0 { "all separated" } else { "separated" };
-    let parts = [
-        (counts.separated - partly, all),
-        (partly, "only some of them separated"),
-        (counts.group, "heard as a group"),
-        (counts.one_tone, "with one tone for all"),
-    ];
     if counts.separated + counts.group == 0 {
         return None;
     }
+    let partly = partly.min(counts.separated);
+    let whole = counts.separated - partly;
+    let (subject, of_some) = match whole {
+        0 if partly > 0 => ("only some ", "rotors separated"),
+        _ => ("rotors ", "only some of them separated"),
+    };
+    let parts = [
+        (whole, "separated"),
+        (partly, of_some),
+        (counts.group, "heard as a group"),
+        (counts.one_tone, "with one tone for all"),
+    ];
     let parts: Vec<String> = parts
         .into_iter()
         .filter(|(count, _)| *count > 0)
         .map(|(count, how)| format!("{how} in {}", counted(count, "recording")))
         .collect();
-    Some(format!("rotors {}", parts.join(", ")))
+    Some(format!("{subject}{}", parts.join(", ")))
 }
 
 /// "tone at 2 times the rotor speed".

@@ -1,5 +1,6 @@
 //! `hovertone batch-compare`: which rotors have changed between two archives.
 
+use super::CONDITION;
 use super::folder::IDENTITY;
 use super::tables::RECORDINGS;
 use crate::args::BatchCompareArguments;
@@ -74,11 +75,15 @@ impl Results {
 
     /// The warning that the recordings were heard in another way.
     fn other_settings(&self, later: &Self, folders: [&Path; 2]) -> Option<Notice> {
-        let there = BatchIdentity {
+        let mut there = BatchIdentity {
             inputs: later.identity.inputs.clone(),
             list_from_stdin: later.identity.list_from_stdin.clone(),
             ..self.identity.clone()
         };
+        // the condition is told beside the speed, and changes nothing in it
+        if let (Some(own), Some(other)) = (there.settings.get_mut(CONDITION), later.identity.settings.get(CONDITION)) {
+            other.clone_into(own);
+        }
         let places = folders.map(|folder| format!("in {}", printable(&folder.to_string_lossy())));
         let shown = there.differences(&later.identity, places.each_ref().map(String::as_str))?;
         let text = format!(

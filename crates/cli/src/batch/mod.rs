@@ -24,6 +24,9 @@ use inputs::{Names, Recordings, recordings_of, spelled_as_before};
 use serde_json::json;
 use tables::write_tables;
 
+/// Key of the wish for a condition among the settings.
+const CONDITION: &str = "condition";
+
 /// Hears what is missing, and writes the tables where nothing is missing any more.
 pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     if arguments.replace.force && arguments.shard.is_some() {
@@ -53,7 +56,7 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
             "audio_track": hearing.audio_track,
             "channel": hearing.channel,
             "clock_correction_ppm": hearing.clock_correction_ppm,
-            "condition": requests.condition,
+            CONDITION: requests.condition,
         }),
     };
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);

@@ -51,6 +51,8 @@ impl AcousticScale {
         let Some((vehicle, speeds)) = self.vehicle_mass_kg.zip(self.hover_speeds()) else { return Ok(()) };
         let (rev_s, fastest_rev_s) = (speeds.start().rev_s(), fastest.rev_s());
         if rev_s > fastest_rev_s {
+            // the lower limit is that of a lighter vehicle
+            let rev_s = rev_s / (1.0 - LIGHTER_SHARE_MAX).sqrt();
             return Err(WeighError::TooHeavyToHover { vehicle_kg: vehicle.value, rev_s, fastest_rev_s });
         }
         Ok(())
