@@ -59,6 +59,11 @@ impl Wording {
     /// The same, where all loads hover.
     pub const IN_FLIGHT: Self = Self { is_flight: true, ..Self::IN_EXPERIMENT };
 
+    /// For an experiment file, whose loads all hover or not.
+    pub fn of_experiment(is_flight: bool) -> Self {
+        if is_flight { Self::IN_FLIGHT } else { Self::IN_EXPERIMENT }
+    }
+
     /// Some phrases alone.
     pub const fn of_phrases(phrases: &'static [(&'static str, &'static str)]) -> Self {
         Self { phrases, keys: &[], has_loads: false, is_flight: false }

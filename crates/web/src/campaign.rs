@@ -43,7 +43,7 @@ pub(crate) fn identify(
         let config = load.config(&experiment);
         let mut of_all = |share: f64| on_share((index as f64 + share) / count);
         let record = files_heard.record_of_trial(trial.number, &trial.name, &config, clock_correction_ppm, &mut of_all);
-        let record = record.worded(Wording::IN_EXPERIMENT);
+        let record = record.worded(Wording::of_experiment(experiment.is_flight()));
         inputs.push(InputRecord { load: load.name.clone(), record, log: None });
     }
     let titles = Titles { file: EXPERIMENT.to_owned(), sha256: in_hexadecimal(&Sha256::digest(text.as_bytes())) };

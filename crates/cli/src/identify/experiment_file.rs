@@ -9,7 +9,7 @@ use crate::toml_file::TomlFile;
 use crate::typed::quoted;
 use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
-use hovertone::thrust::{Force, VehicleModel};
+use hovertone::thrust::VehicleModel;
 use hovertone_report::Wording;
 use hovertone_vehicle::{Contradiction, find_preset, presets};
 use std::path::{Path, PathBuf};
@@ -74,7 +74,7 @@ impl ExperimentSource {
         let is_own = file.vehicle.preset.as_deref().is_some_and(|name| find_preset(name).is_none());
         let vehicles = if is_own { known_vehicles()? } else { presets().to_vec() };
         let experiment = file.resolve_among(&vehicles, model).map_err(|error| meaning_failure(&error, &path))?;
-        let is_flight = experiment.loads.iter().all(|load| matches!(load.force, Force::Weight { .. }));
+        let is_flight = experiment.is_flight();
         Ok(Self {
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),
             name: path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -82,7 +82,7 @@ impl ExperimentSource {
             has_notes: text.trim_start().starts_with('#'),
             experiment,
             typed: None,
-            wording: if is_flight { Wording::IN_FLIGHT } else { Wording::IN_EXPERIMENT },
+            wording: Wording::of_experiment(is_flight),
             path,
         })
     }

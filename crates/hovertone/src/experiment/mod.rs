@@ -233,6 +233,11 @@ pub struct ExperimentLoad {
 }
 
 impl Experiment {
+    /// Whether all loads hover, so that all rotors of the vehicle turn.
+    pub fn is_flight(&self) -> bool {
+        self.loads.iter().all(|load| matches!(load.force, Force::Weight { .. }))
+    }
+
     /// The settings of the thrust constant.
     pub fn thrust_settings(&self) -> ThrustSettings {
         ThrustSettings {
