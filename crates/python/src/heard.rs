@@ -59,11 +59,10 @@ impl Heard {
     }
 }
 
-/// The points of all tracks, each with the number of its rotor.
-fn points_of(record: &SpeedRecord) -> Vec<(i64, &TrackPoint)> {
+/// The points of all tracks, each with the number of its rotor: those of `--track`.
+fn points_of(record: &SpeedRecord) -> Vec<(i64, TrackPoint)> {
     let Some(tone) = record.tone().filter(|_| !record.is_ambiguous()) else { return Vec::new() };
-    if tone.rotors.is_empty() {
-        return tone.track.iter().map(|point| (0, point)).collect();
-    }
-    (1..).zip(&tone.rotors).flat_map(|(number, rotor)| rotor.track.iter().map(move |point| (number, point))).collect()
+    let first = i64::from(!tone.rotors.is_empty());
+    let tracks = tone.tracks_beside_log(record.method);
+    (first..).zip(&tracks).flat_map(|(number, track)| track.iter().map(move |point| (number, *point))).collect()
 }
