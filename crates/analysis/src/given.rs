@@ -4,7 +4,7 @@ use crate::Warning;
 use hovertone_vehicle::in_list;
 
 /// Part of the advice where rotors are not separated: it means nothing to a person who has given their number.
-const FEWER_ROTORS: &str = "if fewer rotors turn, give their number with --rotors; ";
+pub const FEWER_ROTORS: &str = "if fewer rotors turn, give their number with --rotors; ";
 
 /// Advice where several rotors sound in the band.
 const NARROWER_BAND: &str = "hovertone follows whichever rotor is loudest at each moment; if several rotors turn, give their number with --rotors; to follow one \

@@ -24,7 +24,7 @@ mod warning;
 mod weighed_speed;
 
 pub use condition::{RotorCondition, ShaftLine};
-pub use given::GivenFacts;
+pub use given::{FEWER_ROTORS, GivenFacts};
 pub use hover::{Cut, CutReason, Hover};
 pub use labels::{LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorLabel, RotorLabels};
 pub use method::Method;

@@ -3,7 +3,8 @@
 use hovertone_report::{ONE_BAND_FOR_ALL, Wording};
 
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
-pub(crate) const IN_PLACE_OF_FILE: Wording = Wording { has_loads: true, ..Wording::of_phrases(IN_PLACE_OF_KEYS) };
+pub(crate) const IN_PLACE_OF_FILE: Wording =
+    Wording { has_loads: true, is_flight: true, ..Wording::of_phrases(IN_PLACE_OF_KEYS) };
 
 const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     (
@@ -16,7 +17,6 @@ const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
         "the speed is the mean of all rotors, and its ± allows for this",
         "C_f uses the mean speed of all rotors, and its ± allows for this",
     ),
-    ("if fewer rotors turn, give their number with --rotors; ", ""),
     OTHER_ROTORS_IN_FLIGHT,
     ("under [samples] in the experiment file", "under [samples] in DIR/experiment.toml, which -o DIR writes"),
     ("--mass-kg", "--mass"),
@@ -30,14 +30,16 @@ const OTHER_ROTORS_IN_FLIGHT: (&str, &str) =
     ("if more rotors turn, give their number with --rotors; if not, ", "check the number of rotors; if it is right, ");
 
 /// Behind `weigh`, which hears a vehicle in a hover.
-pub(crate) const IN_HOVER: Wording = Wording::of_phrases(&[
-    (
-        "the speed is the mean of all rotors, and its ± allows for this",
-        "the mass comes from the mean speed of all rotors, and its ± allows for this",
-    ),
-    ("if fewer rotors turn, give their number with --rotors; ", ""),
-    OTHER_ROTORS_IN_FLIGHT,
-]);
+pub(crate) const IN_HOVER: Wording = Wording {
+    is_flight: true,
+    ..Wording::of_phrases(&[
+        (
+            "the speed is the mean of all rotors, and its ± allows for this",
+            "the mass comes from the mean speed of all rotors, and its ± allows for this",
+        ),
+        OTHER_ROTORS_IN_FLIGHT,
+    ])
+};
 
 /// Behind `spectrogram`, which prints no speed.
 pub(crate) const IN_PICTURE: Wording =

@@ -38,8 +38,8 @@ pub(crate) struct HeardRotors {
 impl HeardRotors {
     /// `None` where the tone has no speed. `alternatives`: the possible readings, most plausible first; empty where one is decided.
     fn of(tone: RotorTone, hover: Vec<Span>, alternatives: &[Reading], config: Config) -> Option<Self> {
-        let config_method = config.method;
-        let speed = tone.speed(config_method)?;
+        let method = config.method;
+        let speed = tone.speed(method)?;
         let speed_rev_s = speed.speed.rev_s();
         Some(Self {
             speed_rev_s,
@@ -49,8 +49,14 @@ impl HeardRotors {
             doubts: Vec::new(),
             config,
             hover,
-            track: track_of(tone, config_method),
+            track: track_of(tone, method),
         })
+    }
+
+    /// The points of the track before and behind a time.
+    fn points_around(&self, time_s: f64) -> Option<(&TrackPoint, &TrackPoint)> {
+        let behind = self.track.partition_point(|point| point.time_s < time_s);
+        Some((self.track.get(behind.checked_sub(1)?)?, self.track.get(behind)?))
     }
 
     /// Lines per turn that are followed: of a gear whose blades are known, those of the blades, which rotors at unlike speeds share for longer.
@@ -90,15 +96,13 @@ fn compared(tone: &RotorTone, alternatives: &[Reading], speed_rev_s: f64, config
 impl SpeedAt for HeardRotors {
     fn speed_rev_s_at(&self, time_s: f64) -> Option<f64> {
         let is_hover = self.hover.iter().any(|span| span.contains(time_s));
-        let behind = self.track.partition_point(|point| point.time_s < time_s);
-        let (before, behind) = (self.track.get(behind.checked_sub(1)?)?, self.track.get(behind)?);
+        let (before, behind) = self.points_around(time_s)?;
         let share = (time_s - before.time_s) / (behind.time_s - before.time_s).max(f64::MIN_POSITIVE);
         is_hover.then_some(before.speed_rev_s + share * (behind.speed_rev_s - before.speed_rev_s))
     }
 
     fn std_uncertainty_rev_s_at(&self, time_s: f64) -> Option<f64> {
-        let behind = self.track.partition_point(|point| point.time_s < time_s);
-        let (before, behind) = (self.track.get(behind.checked_sub(1)?)?, self.track.get(behind)?);
+        let (before, behind) = self.points_around(time_s)?;
         Some(before.std_uncertainty_rev_s.max(behind.std_uncertainty_rev_s))
     }
 

@@ -112,12 +112,11 @@ impl SteadyMean {
     }
 
     /// The speed now, with the uncertainty by the noise and by how much the speed moves. `None` before the first frames.
-    pub(crate) fn now(&mut self) -> Option<MeanSpeed> {
-        let answer = self.agreed()?;
-        let of_noise = answer.std_uncertainty_rev_s.powi(2);
-        let of_moving = self.moving.variance(self.independent(LATER_FRAMES)) - of_noise;
-        let variance = of_noise + of_moving.max(0.0);
-        Some(MeanSpeed { std_uncertainty_rev_s: variance.sqrt(), ..answer })
+    pub(crate) fn now(&self) -> Option<MeanSpeed> {
+        let answer = self.last()?;
+        // the errors of answers have their noise too
+        let of_moving = self.moving.variance(self.independent(LATER_FRAMES)).sqrt();
+        Some(MeanSpeed { std_uncertainty_rev_s: answer.std_uncertainty_rev_s.max(of_moving), ..answer })
     }
 
     /// The longest mean that agrees with all shorter ones (Lepskii, Theory Probab. Appl. 35, 1990): long while the speed is steady, and short

@@ -4,7 +4,7 @@ use crate::failure::raised;
 use hovertone_analysis::TrackPoint;
 use hovertone_cli::Failure;
 use hovertone_cli::calls::HeardRecording;
-use hovertone_report::{SpeedRecord, speed_json, tones_json};
+use hovertone_report::{SpeedRecord, numbered_tracks, speed_json, tones_json};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 
@@ -61,8 +61,9 @@ impl Heard {
 
 /// The points of all tracks, each with the number of its rotor: those of `--track`.
 fn points_of(record: &SpeedRecord) -> Vec<(i64, TrackPoint)> {
-    let Some(tone) = record.tone().filter(|_| !record.is_ambiguous()) else { return Vec::new() };
-    let first = i64::from(!tone.rotors.is_empty());
-    let tracks = tone.tracks_beside_log(record.method);
-    (first..).zip(&tracks).flat_map(|(number, track)| track.iter().map(move |point| (number, *point))).collect()
+    let mut points = Vec::new();
+    for (rotor, track) in numbered_tracks(record) {
+        points.extend(track.iter().map(|point| (rotor as i64, *point)));
+    }
+    points
 }

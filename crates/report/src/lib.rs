@@ -111,7 +111,7 @@ pub use table_lines::table_text;
 pub use text_table::{Column, Row, TextTable};
 pub use thrust::{LOADS_FOOTNOTE, load_in_words, methods_table, thrust_summary, thrust_table};
 pub use tones::{tones_json, tones_text};
-pub use track::track_csv;
+pub use track::{numbered_tracks, track_csv};
 pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use units::{ConstantInUnit, constants_in_units};
 pub use vehicles::{vehicles_json, vehicles_text};

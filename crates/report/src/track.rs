@@ -4,6 +4,15 @@ use crate::csv_text::text_of;
 use crate::recording::SpeedRecord;
 use hovertone_analysis::TrackPoint;
 use serde::Serialize;
+use std::borrow::Cow;
+
+/// The tracks of a recording with the numbers of their rotors, from 1 as in its table; 0 for all together. None without a speed, or where several
+/// are possible.
+pub fn numbered_tracks(record: &SpeedRecord) -> impl Iterator<Item = (usize, Cow<'_, [TrackPoint]>)> {
+    let tone = record.tone().filter(|_| !record.is_ambiguous());
+    let first = usize::from(!record.rotors().is_empty());
+    (first..).zip(tone.into_iter().flat_map(|tone| tone.tracks_beside_log(record.method)))
+}
 
 /// The track of every recording as CSV; with several recordings the first column is the file. Separated rotors have lines of their own,
 /// with their number in the table in a column `rotor`. One tone of several rotors has their spread in its uncertainty. A recording without a rotor
@@ -49,15 +58,8 @@ pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
             let label = (has_rotors && has_labels).then(name);
             Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db, rotor, label }
         };
-        let Some(tone) = record.tone().filter(|_| !record.is_ambiguous()) else { continue };
-        for (index, rotor) in tone.rotors.iter().enumerate() {
-            rotor.track.iter().try_for_each(|point| writer.serialize(line(point, Some(index + 1))))?;
-        }
-        if tone.rotors.is_empty() {
-            // among recordings with separated rotors, one without them has rotor 0 for all together
-            let rotor = has_rotors.then_some(0);
-            let tracks = tone.tracks_beside_log(record.method);
-            tracks.iter().flat_map(|track| track.iter()).try_for_each(|point| writer.serialize(line(point, rotor)))?;
+        for (rotor, track) in numbered_tracks(record) {
+            track.iter().try_for_each(|point| writer.serialize(line(point, has_rotors.then_some(rotor))))?;
         }
     }
     text_of(writer)

@@ -1,6 +1,7 @@
 //! Advice in the words of a command that says facts in another way than by the flags of `hovertone speed`.
 
 use crate::experiment_key::ExperimentKey;
+use hovertone_analysis::FEWER_ROTORS;
 
 /// What a command has in place of flags that advice names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,9 +15,6 @@ pub struct Wording {
     /// Whether all loads hover: then all rotors of the vehicle turn.
     pub is_flight: bool,
 }
-
-/// Advice that means nothing in a hover.
-const FEWER_ROTORS: &str = "if fewer rotors turn, give their number with --rotors; ";
 
 /// In place of the advice to hear one rotor in a band: the loads of an experiment have their tones in different bands.
 pub const ONE_BAND_FOR_ALL: &str = "; a nearer microphone may help to separate the rotors";

@@ -60,6 +60,16 @@ impl Column {
         words_of(&self.header.to_lowercase()).any(|word| word == "torque")
     }
 
+    /// The quantity of its standard uncertainty, for a column of forces or of speeds.
+    pub(super) fn std_quantity(&self) -> Option<Quantity> {
+        match self.quantity? {
+            Quantity::Speed => Some(Quantity::SpeedStd),
+            Quantity::Thrust => Some(Quantity::ThrustStd),
+            Quantity::Mass => Some(Quantity::MassStd),
+            _ => None,
+        }
+    }
+
     /// Whether the column is an expanded uncertainty with k = 2: twice a standard uncertainty.
     pub(super) fn is_expanded(&self) -> bool {
         let is_std = matches!(self.quantity, Some(Quantity::SpeedStd | Quantity::ThrustStd | Quantity::MassStd));

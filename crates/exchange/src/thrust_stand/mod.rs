@@ -138,7 +138,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let of_nothing = columns.iter().filter(|column| column.lacks_quantity);
     notes.extend(of_nothing.map(|column| TableNote::QuantityMissing { column: column.header.clone() }));
     notes.extend(rivals(&csv, &columns, &records, [speed, force]));
-    notes.extend(std_notes(&columns, force));
+    notes.extend(std_notes(&columns, [force, speed]));
     notes.extend(speed.is_in_hz().then(|| TableNote::SpeedInHz { column: speed.header.clone() }));
     notes.extend(empty_notes(empty));
     turn_round(&mut rows, &mut notes);
@@ -153,23 +153,25 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
             None => groups.push(StandGroup { name, rows: vec![row] }),
         }
     }
-    let force_std = if force.quantity == Some(Quantity::Mass) { Quantity::MassStd } else { Quantity::ThrustStd };
-    let header_of = |quantity: Quantity| {
-        let column = columns.iter().find(|column| column.quantity == Some(quantity))?;
-        Some(column.header.clone())
-    };
+    let std_header = |measured: &Column| Some(std_of(&columns, measured)?.header.clone());
     for group in &groups {
-        check_stds(group, header_of(force_std), |row| row.force_std)?;
-        check_stds(group, header_of(Quantity::SpeedStd), |row| row.speed_std_rad_s)?;
+        check_stds(group, std_header(force), |row| row.force_std)?;
+        check_stds(group, std_header(speed), |row| row.speed_std_rad_s)?;
     }
     Ok(StandTable {
-        std_columns: [force_std, Quantity::SpeedStd].into_iter().filter_map(header_of).collect(),
+        std_columns: [force, speed].into_iter().filter_map(std_header).collect(),
         groups,
         speed_column: speed.header.clone(),
         force_column: force.header.clone(),
         rotor_count: rotors_in(&force.header).or_else(|| rotors_running(&columns, &records)),
         notes,
     })
+}
+
+/// The column with the standard uncertainties of another one.
+fn std_of<'a>(columns: &'a [Column], measured: &Column) -> Option<&'a Column> {
+    let quantity = measured.std_quantity()?;
+    columns.iter().find(|column| column.quantity == Some(quantity))
 }
 
 /// Checks that all rows of a group state an uncertainty, or none: a row without one would count as exact.
@@ -250,10 +252,8 @@ impl RowReader<'_> {
                 fault: "not above 0, but a mass that hovers must be",
             });
         }
-        let std = |quantity: Quantity, measured: f64| -> Result<Option<f64>, TableError> {
-            let Some(column) = self.columns.iter().find(|column| column.quantity == Some(quantity)) else {
-                return Ok(None);
-            };
+        let std = |measured: &Column, size: f64| -> Result<Option<f64>, TableError> {
+            let Some(column) = std_of(self.columns, measured) else { return Ok(None) };
             match self.checked(column, record)? {
                 Some(value) if value < 0.0 => Err(TableError::OutOfRange {
                     line: line_of(record),
@@ -261,7 +261,7 @@ impl RowReader<'_> {
                     value: plausible::in_unit(value, column),
                     fault: "negative, but a standard uncertainty must be 0 or more",
                 }),
-                value => Ok(value.map(|value| if column.is_share { value * measured.abs() } else { value })),
+                value => Ok(value.map(|std| if column.is_share { std * size.abs() } else { std })),
             }
         };
         let other = |quantity: Quantity| {
@@ -276,9 +276,9 @@ impl RowReader<'_> {
         Ok(Some(StandRow {
             line_number: line_of(record),
             speed_rad_s,
-            speed_std_rad_s: std(Quantity::SpeedStd, speed_rad_s)?,
+            speed_std_rad_s: std(self.speed, speed_rad_s)?,
             force: if is_mass { StandForce::Mass { mass_kg: force } } else { StandForce::Thrust { thrust_n: force } },
-            force_std: std(if is_mass { Quantity::MassStd } else { Quantity::ThrustStd }, force)?,
+            force_std: std(self.force, force)?,
             power_w,
             torque_n_m,
             voltage_v: other(Quantity::Voltage),
@@ -296,17 +296,18 @@ impl RowReader<'_> {
     }
 }
 
-/// How the columns of uncertainties are read: those of the force that is used, and of the speed.
-fn std_notes(columns: &[Column], force: &Column) -> Vec<TableNote> {
-    let of_force = if force.quantity == Some(Quantity::Mass) { Quantity::MassStd } else { Quantity::ThrustStd };
+/// How the columns of uncertainties of these columns are read.
+fn std_notes(columns: &[Column], measured: [&Column; 2]) -> Vec<TableNote> {
     let mut notes = Vec::new();
-    for quantity in [of_force, Quantity::SpeedStd] {
+    for quantity in measured.into_iter().filter_map(Column::std_quantity) {
         let mut of_quantity = columns.iter().filter(|column| column.quantity == Some(quantity));
         let Some(used) = of_quantity.next() else { continue };
         notes.extend(used.is_expanded().then(|| TableNote::Expanded { column: used.header.clone() }));
-        notes.extend(
-            of_quantity.map(|other| TableNote::SecondStd { column: other.header.clone(), chosen: used.header.clone() }),
-        );
+        notes.extend(of_quantity.map(|other| TableNote::Rivals {
+            columns: vec![other.header.clone()],
+            what: "uncertainty",
+            chosen: used.header.clone(),
+        }));
     }
     notes
 }

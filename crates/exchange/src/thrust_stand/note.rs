@@ -20,13 +20,6 @@ pub enum TableNote {
         /// Header of the column.
         column: String,
     },
-    /// Standard uncertainties of a quantity that has them already.
-    SecondStd {
-        /// Header of the column.
-        column: String,
-        /// Header of the column that is used.
-        chosen: String,
-    },
     /// A speed whose header has the unit Hz.
     SpeedInHz {
         /// Header of the column.
@@ -37,11 +30,11 @@ pub enum TableNote {
         /// Header of the column.
         column: String,
     },
-    /// Columns that could have been the speed or the force as well.
+    /// Columns that could have been the speed, the force or its uncertainty as well.
     Rivals {
         /// Headers of the columns that are not used.
         columns: Vec<String>,
-        /// "speed" or "force".
+        /// "speed", "force" or "uncertainty".
         what: &'static str,
         /// Header of the column that is used in their place.
         chosen: String,
@@ -91,7 +84,6 @@ impl TableNote {
             Self::Expanded { .. } => {
                 "if they are standard uncertainties (k = 1), write std into the name, as in thrust_std_g"
             }
-            Self::SecondStd { .. } => "if hovertone should use this column, remove the other column",
             Self::SpeedInHz { .. } => {
                 "if it is the frequency of a tone, divide it by the tones per turn (the number of blades); name the column speed_rev_s"
             }
@@ -118,9 +110,6 @@ impl fmt::Display for TableNote {
                     f,
                     "column \"{column}\" is read as expanded uncertainties with k = 2, so its numbers are divided by 2"
                 )
-            }
-            Self::SecondStd { column, chosen } => {
-                write!(f, "column \"{column}\" is not used: the uncertainty comes from column \"{chosen}\"")
             }
             Self::SpeedInHz { column } => {
                 write!(f, "column \"{column}\" is read as turns of the rotor per second")
