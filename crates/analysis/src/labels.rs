@@ -185,15 +185,15 @@ impl NotTold {
             }
             Self::TooManyRotors { .. } => "the rotors get numbers in place of names; rotor 1 is the fastest",
             Self::TooFewTracks { .. } => {
-                "rotors at nearly equal speeds cannot be separated; if their speeds differ, place the microphone nearer"
+                "place the microphone nearer; this does not help with rotors at nearly equal speeds"
             }
             Self::TooManyOffsets { .. } => "give narrower limits for the offset, in seconds: --log-offset-s LOW:HIGH",
             Self::NoOverlap => {
-                "give the log of the same flight; if it is the right log, give other limits for the time to add to \
-                its clock, in seconds: --log-offset-s LOW:HIGH"
+                "give the log of the same flight; if it is the right log, give other limits for the offset of the log, in seconds: \
+                --log-offset-s LOW:HIGH"
             }
             Self::NothingInCommon { .. } => {
-                "check that the log is of the same flight; check the limits of --log-offset-s and the direction of the axes (--log-axes)"
+                "check that the log is of the same flight; if it is, give limits that contain the offset of the log (--log-offset-s LOW:HIGH), and check the direction of the axes (--log-axes)"
             }
             Self::OffsetAtLimit { .. } => "give wider limits for the offset, in seconds: --log-offset-s LOW:HIGH",
             Self::NoStart => {
@@ -244,19 +244,25 @@ impl fmt::Display for NotTold {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OtherCount { rotors, of_log } => {
-                write!(f, "the vehicle has {rotors} rotors, but the log has {of_log} motors, or outputs that change")
+                write!(
+                    f,
+                    "the vehicle has {rotors} rotors, but the log has {of_log} motors (or motor outputs that change)"
+                )
             }
             Self::TooManyRotors { rotors } => {
                 write!(f, "{rotors} rotors are too many to name: the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{} separated in the sound, but names need {needed} separated rotors", rotors_are(*tracks))
+                write!(
+                    f,
+                    "to name rotors, {needed} separated rotors are needed, but {} separated in the sound",
+                    rotors_are(*tracks)
+                )
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(
                     f,
-                    "the offset between the clocks of log and recording may be anything from {low_s:.0} to \
-                    {high_s:.0} s: this range is too wide to search"
+                    "the offset of the log may be anything from {low_s:.0} to {high_s:.0} s: this range is too wide to search"
                 )
             }
             Self::NoOverlap => f.write_str("the log covers too little time of the hover"),

@@ -87,7 +87,7 @@ impl NoTone {
                 given.in_words("and")
             ),
             Self::NoFrame { window_s, hover_s } if given.window => format!(
-                "in {hover_s:.1} s of hover, the tone is never clear in frames of {window_s} s; leave --window-s out: hovertone then chooses a \
+                "in {hover_s:.1} s of hover, no piece of {window_s} s (--window-s) has a clear tone; leave --window-s out: hovertone then chooses a \
                  length that fits the tone"
             ),
             other => other.to_string(),
@@ -123,7 +123,7 @@ impl fmt::Display for NoTone {
             }
             Self::NoSeries { .. } => f.write_str(&self.in_words(GivenFacts::default())),
             Self::NoHover => {
-                f.write_str("no tone is steady for long enough; hover for ten seconds or longer without moving the sticks")
+                f.write_str("no tone is steady for long enough; hover for ten seconds or longer without moving the sticks, or on a bench hold the throttle")
             }
             Self::NoFrame { window_s, hover_s } => {
                 write!(
@@ -134,8 +134,7 @@ impl fmt::Display for NoTone {
             Self::MainsHum { mains_hz } => write!(
                 f,
                 "only tones at multiples of {mains_hz:.2} Hz are heard, and they never change: this is mains hum (from the power supply), \
-                or a rotor that turns as steadily; if it may be a rotor, record it at another throttle; if not, place the microphone nearer \
-                to the rotors"
+                or a rotor at a constant speed; record the rotor at another throttle, or place the microphone nearer to the rotors"
             ),
             Self::NotHeld { tone_hz, held_s } => write!(
                 f,
@@ -161,10 +160,10 @@ mod tests {
         let said = NoTone::MainsHum { mains_hz: 60.0 }.to_string();
         assert!(
             said.contains("60.00 Hz")
-                && said.contains("mains hum (from the power supply), or a rotor that turns as steadily"),
+                && said.contains("mains hum (from the power supply), or a rotor at a constant speed"),
             "{said}"
         );
-        assert!(said.contains("record it at another throttle"), "{said}");
+        assert!(said.contains("record the rotor at another throttle"), "{said}");
     }
 
     #[test]

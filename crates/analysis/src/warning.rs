@@ -180,14 +180,14 @@ impl Warning {
                 "if fewer rotors turn, give their number, as in --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer"
             }
             Self::RotorsNotApart { has_mean: false, .. } => {
-                "to separate them and get a smaller ±, place the microphone nearer (compressed sound makes it harder); rotors at equal speeds \
+                "to separate them and get a smaller ±, place the microphone nearer, and record without compression; rotors at nearly equal speeds \
                 cannot be separated"
             }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; rotors at nearly equal speeds cannot be separated; if their speeds differ, a nearer microphone may help"
+                "the speed is the mean of all rotors, and its ± includes that not all were separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
             }
             Self::RotorCountUnknown { .. } => {
-                "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several, place the microphone nearer"
+                "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several rotors, leave --method and --mean-only out, and place the microphone nearer"
             }
             Self::OtherRotorsHeard { .. } => {
                 "if more rotors turn, give their number with --rotors; if not, record away from other machines"
@@ -240,7 +240,7 @@ impl fmt::Display for Warning {
                 )
             }
             Self::ManyGaps { gap_share } => {
-                write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)?;
+                write!(f, "the tone is not clear for {:.0} % of the time", 100.0 * gap_share)?;
                 if self.is_hardly_heard() { f.write_str(": the speed may come from another sound") } else { Ok(()) }
             }
             Self::FewFrames { sample_s, needed_s: Some(needed_s), .. } => {
@@ -254,12 +254,16 @@ impl fmt::Display for Warning {
                 )
             }
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed, spread_share } => {
-                let assumed = if *is_assumed { " that hovertone assumes (no number was given)" } else { "" };
+                let assumed = if *is_assumed {
+                    format!(" (hovertone assumes {of}, because no number was given)")
+                } else {
+                    String::new()
+                };
                 f.write_str(&not_apart_text(*resolved, &format!("{of} rotors{assumed}"), *has_mean, *spread_share))
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not given, and the tone may come from one of several. So the ± is larger: \
+                "the number of rotors is not given; if there are several, the tone may come from one of them alone. So the ± is larger: \
                 hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
@@ -267,12 +271,12 @@ impl fmt::Display for Warning {
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
                 "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is \
-                more than 99 times as probable as one that fits them"
+                more than 99 times as probable as any rotor with these facts"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(
                     f,
-                    "the followed speed varies by {:.1} % (standard deviation): it may jump from one rotor to another",
+                    "the heard speed varies by {:.1} % (standard deviation): hovertone may hear different rotors at different times",
                     100.0 * spread_share
                 )
             }
@@ -309,11 +313,11 @@ fn others_heard_text(expected: u32) -> String {
 fn not_apart_text(resolved: usize, rotors: &str, has_mean: bool, spread_share: f64) -> String {
     match (resolved, has_mean) {
         (0, true) => {
-            format!("the {rotors} could not be separated: they are heard as a group, which has one mean speed")
+            format!("the {rotors} could not be separated, so only their mean speed is known")
         }
         (0, false) => format!(
-            "the {rotors} could not be separated, so one tone is used for all. It may be the tone of one rotor alone, \
-            so the ± is larger: hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
+            "the {rotors} could not be separated: one tone is used for all, and it may come from one rotor alone. \
+            So the ± is larger: hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
             100.0 * spread_share
         ),
         _ => format!("only {resolved} of the {rotors} could be separated"),
@@ -364,7 +368,10 @@ mod tests {
         let all = [true, false]
             .map(|is_assumed| [said(0, true, is_assumed), said(0, false, is_assumed), said(3, true, is_assumed)]);
         assert!(all.iter().flatten().all(|said| said.contains("be separated") && !said.contains("close")), "{all:?}");
-        assert!(all[0].iter().all(|said| said.contains("that hovertone assumes (no number was given)")), "{all:?}");
+        assert!(
+            all[0].iter().all(|said| said.contains("(hovertone assumes 4, because no number was given)")),
+            "{all:?}"
+        );
         assert!(all[1].iter().all(|said| !said.contains("assumes (no number")), "{all:?}");
     }
 

@@ -143,8 +143,8 @@ fn say_other_mass(of_model_kg: Option<f64>, of_results_kg: Option<f64>, terminal
         of_model_kg.zip(of_results_kg).filter(|(theirs, heard)| !are_alike(*theirs, *heard))
     {
         let text = format!(
-            "the vehicle weighs {theirs_kg} kg in the model, but {heard_kg} kg in the results: in the simulator, its \
-             rotors will hover at another speed"
+            "the vehicle weighs {theirs_kg} kg in the model, but {heard_kg} kg in the results: in the simulator, it will hover at another \
+             rotor speed"
         );
         terminal.warning(
             &Notice::new(text, "change the mass in the model file yourself: --into does not change masses"),

@@ -63,16 +63,17 @@ pub(crate) fn advise_by_constant(record: &mut SpeedRecord, heard: &HeardTone, ty
 
 /// Why the rotors of a constant are not heard, and what to do. `None` where flags name the tone and no other rotor is heard.
 fn why_not_heard(instead: Option<OtherRotor>, [low, high]: [f64; 2], flags: &[&str]) -> Option<String> {
-    let not_heard =
-        format!("no rotor is heard at {low:.0} to {high:.0} rev/s, where the rotors of the constant are searched for");
+    let not_heard = format!(
+        "no rotor is heard at {low:.0} to {high:.0} rev/s, where hovertone searches for the vehicle of the constant"
+    );
     let Some(OtherRotor { blades, speed_rev_s }) = instead else {
-        return flags.is_empty().then(|| format!("{not_heard}; {OTHER_VEHICLE}, or move the microphone nearer"));
+        return flags.is_empty().then(|| format!("{not_heard}; move the microphone nearer; {OTHER_VEHICLE}"));
     };
     let may_turn = format!("a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s");
     Some(match flags {
         [] if (low..=high).contains(&speed_rev_s) => format!(
-            "this does not sound like the vehicle of the constant, but {may_turn}; {OTHER_VEHICLE}; if \
-            it is the same, move the microphone nearer"
+            "this does not sound like the vehicle of the constant, but {may_turn}; if it is the same vehicle, \
+            move the microphone nearer; {OTHER_VEHICLE}"
         ),
         [] => format!("{not_heard}. But {may_turn}: {OTHER_VEHICLE}"),
         flags => {

@@ -94,12 +94,16 @@ fn hint_of(error: &LogError) -> String {
         LogError::NoSuchSignal { name, tables, .. } => nearest(name, tables.split(", ")),
         _ => None,
     };
-    meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
+    meant.map_or_else(|| error.hint().to_owned(), |meant| format!("the most similar name is {meant}; {}", error.hint()))
 }
 
 /// The flag that names a column, where the command has it.
 fn flag_of_columns() -> &'static str {
-    if WITH_COLUMNS.contains(&command_word().as_str()) { ", or give --column OLD=time_s" } else { "" }
+    if WITH_COLUMNS.contains(&command_word().as_str()) {
+        ", or give --column HEADER=time_s with the header of the time column; a table without times is no log"
+    } else {
+        ""
+    }
 }
 
 fn command_word() -> String {
@@ -129,12 +133,14 @@ fn example_of_columns(columns: &str) -> String {
     let command = format!("{} {}", typed_command(), column(time, "time_s"));
     match headers.iter().find(|header| **header != time && is_speed(header)) {
         Some(speed) => format!(
-            ". If \"{time}\" is the time in seconds (of milliseconds: time_ms in place of time_s) and \"{speed}\" the speed of a rotor in {unit}: {command} {}",
+            ". If \"{time}\" is the time in seconds and \"{speed}\" is the speed of a rotor in {unit}, run: {command} {} (if the time is in milliseconds, write time_ms in place of time_s)",
             column(speed, &format!("rotor1_{}", unit_of(speed))),
             unit = unit_of(speed)
         ),
         None => {
-            format!(". If \"{time}\" is the time in seconds (of milliseconds: time_ms in place of time_s): {command}")
+            format!(
+                ". If \"{time}\" is the time in seconds, run: {command} (if it is in milliseconds, write time_ms in place of time_s)"
+            )
         }
     }
 }

@@ -8,10 +8,10 @@ use std::path::Path;
 /// Refuses standard uncertainties that say that nothing was measured: those of the flags, and those of the results in a file.
 pub(crate) fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Result<(), Failure> {
     let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
-    let refuse = |name: &str, quantity: &str, estimate: Estimate, hint: &str| {
+    let refuse = |name: &str, quantity: &str, unit: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
         let what = format!(
-            "{name} = {} is too large: two times this uncertainty must be less than the {quantity} itself, {}",
+            "{name} = {}: this uncertainty is too large: twice its value must be less than the {quantity}, {} {unit}",
             number_in_words(std),
             number_in_words(estimate.value)
         );
@@ -28,11 +28,12 @@ pub(crate) fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Resul
         (constant, _) if is_swamped(&constant) => refuse(
             "constant_std_n_s2",
             "constant",
+            "N s²",
             constant,
             "give the uncertainty in N s², as the constant: 1 % of 2.8e-5 is 2.8e-7",
         ),
         (_, Some(mass)) if is_swamped(&mass) => {
-            refuse("mass_std_kg", "mass", mass, "give the uncertainty in kilograms: for 0.5 g write 0.0005")
+            refuse("mass_std_kg", "mass", "kg", mass, "give the uncertainty in kilograms: for 0.5 g write 0.0005")
         }
         _ => Ok(()),
     }

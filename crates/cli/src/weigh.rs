@@ -133,8 +133,8 @@ fn constant_of_one(
     });
     OF_ONE_ROTOR.contains(&share).then(|| {
         format!(
-            "is {typed_n_s2:e} the constant of one rotor? --constant-n-s2 is that of the whole vehicle: for {rotor_count} such rotors give \
-             --constant-n-s2 {}{of_std}; if it is of the whole vehicle, check --mass-kg, and the blades or the gear",
+            "--constant-n-s2 needs the constant of the whole vehicle: if {typed_n_s2:e} is the constant of one of {rotor_count} rotors, give \
+             --constant-n-s2 {}{of_std}; if not, check --mass-kg, and the blades or the gear",
             number_in_words(rotors * typed_n_s2)
         )
     })

@@ -7,7 +7,7 @@ use crate::order_words::{times, times_per_turn};
 use crate::settings::tone_of;
 use hovertone::speed::ToneConfig;
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
-use hovertone_report::Notice;
+use hovertone_report::{Notice, tone_of_order};
 use hovertone_vehicle::{BLADES_MAX, Order, RotorSpeed};
 
 /// The tone of the arguments, else the tone behind the results with the same settings.
@@ -57,9 +57,9 @@ pub(crate) fn warning_of_other_tone(
     let (Some(heard), Some(said)) = (results.and_then(|rotor| rotor.tone), tone_of(typed)?) else { return Ok(None) };
     Ok((said.order.lines_per_turn() != heard.order).then(|| {
         Notice::new(
-            "the flags name another tone than that of the constant: the sound does not show whether this is the same vehicle, \
+            "the flags name another tone than that with which the constant was measured: the sound does not show whether this is the same vehicle, \
              and the mass of another vehicle is wrong",
-            "leave the flags of the tone out: then hovertone hears the tone of the constant, and says so if it does not fit",
+            "leave the flags of the tone out: then hovertone listens for the tone with which the constant was measured, and says so if it does not fit",
         )
     }))
 }
@@ -71,10 +71,10 @@ pub(crate) fn tip_of_tone(typed: &ToneArguments, results: Option<&IdentifiedRoto
         Some(_) => None,
         None => Some(Notice::new(
             format!(
-                "no flag says which tone to hear, so hovertone listens for the tone of the constant: it sounds {}",
-                times_per_turn(Order::new(heard.order)?)
+                "no flag says which tone to hear, so hovertone listens for the tone with which the constant was measured: the {}",
+                tone_of_order(Order::new(heard.order)?)
             ),
-            "this is right with the same propellers as in the recordings of the constant; for others, measure a constant first with \
+            "this is right with the same propellers; for others, first measure their constant with \
              `hovertone identify`",
         )),
     })

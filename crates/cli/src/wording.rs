@@ -14,15 +14,15 @@ const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
     (
-        "the speed is the mean of all rotors, and its ± allows for this",
-        "C_f uses the mean speed of all rotors, and its ± allows for this",
+        "the speed is the mean of all rotors, and its ± includes that not all were separated",
+        "C_f uses the mean speed of all rotors, and its ± includes that not all were separated",
     ),
     OTHER_ROTORS_IN_FLIGHT,
     ("under [samples] in the experiment file", "under [samples] in DIR/experiment.toml, which -o DIR writes"),
     ("--mass-kg", "--mass"),
     ("under the right [[load]]", "after the right --mass"),
     ("give each mass a [[load]] of its own", "give --mass once for each mass"),
-    ("; is each added mass (added_mass_kg) without the mass of the vehicle?", ""),
+    ("; added_mass_kg must not include the mass of the vehicle", ""),
 ];
 
 /// In a hover, all rotors of the vehicle turn: no other number of them can be given.
@@ -34,16 +34,18 @@ pub(crate) const IN_HOVER: Wording = Wording {
     is_flight: true,
     ..Wording::of_phrases(&[
         (
-            "the speed is the mean of all rotors, and its ± allows for this",
-            "the mass comes from the mean speed of all rotors, and its ± allows for this",
+            "the speed is the mean of all rotors, and its ± includes that not all were separated",
+            "the mass comes from the mean speed of all rotors, and its ± includes that not all were separated",
         ),
         OTHER_ROTORS_IN_FLIGHT,
     ])
 };
 
 /// Behind `spectrogram`, which prints no speed.
-pub(crate) const IN_PICTURE: Wording =
-    Wording::of_phrases(&[("the speed is the mean of all rotors, and its ± allows for this; ", "")]);
+pub(crate) const IN_PICTURE: Wording = Wording::of_phrases(&[(
+    "the speed is the mean of all rotors, and its ± includes that not all were separated; ",
+    "",
+)]);
 
 #[cfg(test)]
 mod tests {
@@ -122,8 +124,8 @@ mod tests {
             spread_share: 0.006,
         };
         for (has_mean, begins) in [
-            (true, "C_f uses the mean speed of all rotors, and its ± allows for this; "),
-            (false, "C_f is still valid, and its ± allows for this; "),
+            (true, "C_f uses the mean speed of all rotors, and its ± includes that not all were separated; "),
+            (false, "the ± of C_f includes this uncertainty; "),
         ] {
             let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());
             assert!(worded.starts_with(begins), "{worded}");

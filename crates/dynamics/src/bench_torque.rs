@@ -58,7 +58,7 @@ impl BenchTorque {
         match self {
             Self::Told { .. } => None,
             Self::NoTorque => Some(
-                "no column of this log has the torque that a test stand measures; log it with one motor, or fly yaw manoeuvres and use \
+                "no column of this log has a torque; log the torque of one motor on a test stand, or fly yaw manoeuvres and use \
                 `hovertone greybox`"
                     .to_owned(),
             ),

@@ -50,7 +50,7 @@ impl CsvError {
                 "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }
             Self::NotANumber { cell, .. } if cell.split_once(',').is_some_and(|(_, part)| part.len() == 3) => {
-                "a comma before three digits may mean thousands or decimals: write 1.250 with a point, or 1250"
+                "a comma before three digits may mean thousands or decimals: for thousands leave it out, for decimals write a point"
             }
             Self::NotANumber { .. } => "correct the cell, or remove the row",
         }

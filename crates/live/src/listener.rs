@@ -247,8 +247,8 @@ impl Listener {
             || reason.to_string(),
             |speed| {
                 format!(
-                    "a tone near {tone_hz:.0} Hz fits the given facts at {:.1} rev/s, but it is not clear yet whether a rotor makes it; listen for \
-                     longer, and if it stays so, check the given facts",
+                    "a tone near {tone_hz:.0} Hz fits the given facts ({:.1} rev/s), but may come from something else than a rotor; listen for longer; \
+                     if this message stays, check the given facts",
                     speed.rev_s()
                 )
             },

@@ -117,7 +117,7 @@ pub enum LogError {
         format: LogFormat,
     },
     /// No signal of this name.
-    #[error("the log has no signal \"{name}\"{}", few_tables(tables))]
+    #[error("the log has no signal \"{name}\"{}", why_no_signal(tables, meant.as_deref()))]
     NoSuchSignal {
         /// The name of the user.
         name: String,
@@ -138,6 +138,15 @@ pub enum LogError {
 
 /// Largest number of tables that are listed in a message.
 const TABLES_LISTED_MAX: usize = 6;
+
+/// Why a log has no such signal: the name of its table is missing; else the tables, where the log has several.
+fn why_no_signal(tables: &str, meant: Option<&str>) -> String {
+    match meant {
+        Some(_) => ": the name of its table is missing".to_owned(),
+        None if tables.contains(", ") => few_tables(tables),
+        None => String::new(),
+    }
+}
 
 /// The tables of a log behind a message, where they are few.
 fn few_tables(tables: &str) -> String {

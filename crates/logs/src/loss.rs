@@ -67,7 +67,7 @@ impl fmt::Display for Loss {
         let from = if self.place_count == 1 { "from" } else { "first from" };
         write!(f, ", {from} byte {}", first.from_byte)?;
         match first.after_s {
-            Some(after_s) => write!(f, ", after {after_s:.3} s"),
+            Some(after_s) => write!(f, ", at {after_s:.3} s on the clock of the log"),
             None => Ok(()),
         }
     }

@@ -97,7 +97,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
     match (preferred_law(fit), fit.with_intercept, fit.power_law) {
         (None, ..) if fit.laws.len() > 1 => {
             format!(
-                "no law is clearly the most probable, so none is preferred; C_f belongs to the law {}\n",
+                "no law is clearly the most probable, so none is preferred; C_f is the constant of the law {}\n",
                 ForceLaw::Square.formula()
             )
         }
@@ -119,7 +119,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
         ),
         (Some(ForceLaw::Square), ..) if !is_tested(fit) => {
-            "the forces are too alike to prefer the most probable law\n".to_owned()
+            "the forces are too alike to choose between laws, so none is preferred\n".to_owned()
         }
         _ if fit.laws.len() <= 1 && fit.points.len() == LAW_PARAMETERS => {
             format!("no other law is compared with {}: this needs three forces or more\n", ForceLaw::Square.formula())
@@ -161,8 +161,8 @@ fn why_one_law(range: Option<LoadRange>, has_misfits: bool) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "the forces differ from F = C ω² by {:.2} % of the largest force (rms); if this law and the stated uncertainties are right, the chance of \
-            such differences is {} (χ² = {}, {} degree{} of freedom){}\n",
+            "the forces differ from F = C ω² by {:.2} % of the largest force (rms); if this law and the stated uncertainties are right, differences as \
+            large or larger have the chance {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
             p_value_text(agreement.p_value),
             significant(agreement.chi_square, 3),
@@ -170,7 +170,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
             fit.widening().map_or(String::new(), |factor| {
                 format!(
-                    "; therefore the ± of C_f is {} times as large as the stated uncertainties make it (by the scatter, and by Student's factor for few points)",
+                    "; therefore the ± of C_f is {} times as large as from the stated uncertainties alone: it includes the scatter, and that the points are few",
                     significant(factor, 2)
                 )
             })
@@ -226,9 +226,9 @@ fn cross_check(bootstrap: Option<TrialBootstrap>, budget: &UncertaintyBudget, co
     let percent = |std_n_s2: f64| significant(100.0 * std_n_s2 / constant_n_s2, 2);
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "check: the fit was repeated with {} random choices of the recordings (bootstrap, seed {}). By this, the speeds \
-            give C_f a standard uncertainty of {} %; by the two rows \"speed\" of the budget, {} %. Half or twice as much is \
-            no fault with few recordings\n",
+            "check: hovertone repeated the fit with {} random choices of the recordings (bootstrap, seed {}). In these fits, the \
+            speeds cause a standard uncertainty of C_f of {} %. In the budget, the two rows \"speed\" cause {} %. With few \
+            recordings, a factor of two between both numbers is normal\n",
             drawn.draws,
             drawn.seed,
             percent(drawn.std_uncertainty_n_s2),

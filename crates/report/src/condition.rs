@@ -5,14 +5,14 @@ use crate::recording::SpeedRecord;
 use crate::speed::name_of_rotor;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
-use hovertone_analysis::{RotorCondition, ShaftLine};
+use hovertone_analysis::{Method, RotorCondition, ShaftLine};
 
 const WITHOUT_BLADES: &str = "not known: give the number of blades with --blades N";
 
 /// The lines of all rotors, each relative to its own blade pass; `None` where no recording has them.
 pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<String> {
     let mut table = TextTable::new(vec![
-        Column::words("lines against the blade pass"),
+        Column::words("lines against the tone of the blades"),
         Column::numbers("once per turn", "dB"),
         Column::numbers("loudest other line", "dB"),
         Column::numbers("order of this line", ""),
@@ -32,6 +32,9 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
             () if is_short(record) => "not known: less than 4 s of the sound are used; record for longer",
             () if record.is_one_rotor() => {
                 "not known: no clear tone of the blades lasts 4 s; hold the speed for longer, or place the microphone nearer"
+            }
+            () if record.method != Method::Separated => {
+                "not known: this method does not separate rotors; leave --method and --mean-only out; if one rotor turns, give --rotors 1"
             }
             () => "not known: the rotors could not be separated; if one rotor turns, give --rotors 1",
         };

@@ -10,7 +10,7 @@ const STRETCHES_MAX: usize = 6;
 const SEGMENTS_SHOWN: usize = 2;
 /// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
-const EDGE: &str = "edge of the hover";
+const EDGE: &str = "change to or from the hover";
 
 /// A stretch of cuts that follow each other, with the time that each reason cuts of it. A hover's edge belongs to the stretch beside it.
 struct Stretch {

@@ -97,7 +97,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let (of_all, total) = match table.rotor_count {
         1 => (String::new(), String::new()),
         count => (
-            format!("in these laws, C_f and F₀ belong to all {count} rotors together\n"),
+            format!("in the table of laws, C_f and F₀ are those of all {count} rotors together\n"),
             format!("{doubt}C_f, all {count} rotors = {} ({meaning})\n", quoted(table.thrust_constant_total_n_s2)),
         ),
     };
@@ -112,11 +112,11 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     );
     if constant.std_uncertainty.is_some() {
         text +=
-            "an error of the calibration of scale or tachometer is common to all rows, so this ± does not contain it\n";
+            "this ± does not include calibration errors of the scale and the tachometer, because all rows share them\n";
     }
     if let Some(both) = table.thrust_coefficients {
         text += &format!(
-            "thrust coefficient C_T = {} as for propellers, T/(ρ n² D⁴); {} as for helicopters, T/(ρ A (ωR)²); T is the thrust of one rotor, in air of {} kg/m³\n",
+            "thrust coefficient C_T of one rotor: {} as for propellers, F/(ρ n² D⁴); {} as for helicopters, F/(ρ A (ωR)²); F is its thrust, n its turns per second, D, R and A its diameter, radius and disk area, and ρ = {} kg/m³ the density of the air\n",
             significant(both.propeller, 4),
             significant(both.rotorcraft, 4),
             significant(both.density_kg_m3, 4)

@@ -25,7 +25,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
             let added_g = (1e3 * wish.vehicle_mass_kg * (ratio - 1.0)).ceil();
             let [ratio, range] = compared([ratio, range]);
             format!(
-                "To test the law F = C_f ω², the heaviest flight must weigh {ratio} times the lightest. In this plan it weighs {range} times the lightest.\n\
+                "To test the law F = C_f ω², the vehicle with the heaviest load must weigh {ratio} times the vehicle alone. In this plan it weighs {range} times.\n\
                  If the vehicle can carry {added_g} g, plan with --added-mass-kg {}.",
                 added_g / 1e3
             )
@@ -34,8 +34,8 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     let advice = match plan.largest {
         BudgetInput::LoudestRotor => {
-            "\nThis assumes that the tone of one rotor stands for all. If `hovertone speed` separates your rotors, or hears them \
-            as a group (then it knows their mean), add --rotors-separated: the ± is smaller."
+            "\nThe plan assumes that one tone is used for all rotors. If `hovertone speed` separates your rotors, or hears them \
+            as a group with a mean speed, add --rotors-separated: the ± is smaller."
         }
         BudgetInput::Gravity => "\nThe place of the flight makes this part smaller: plan again with --latitude-deg.",
         _ => "",
@@ -45,7 +45,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
         hover_s => format!("{:.1} minutes", hover_s / 60.0),
     };
     format!(
-        "Plan: {} loads ({} added), {} of each load, {:.0} s of hover in each recording: {hover} of hover in all\n\
+        "Plan: {} loads ({} added), {} of each load, {:.0} s of used hover in each recording (without what hovertone cuts): {hover} of used hover in all\n\
          Wanted: C_f ± {} % or less (k = 2; change it with --wanted-share). Expected: ± {} %. The largest part of this ± comes from: \
          {}.{advice}\n{intercept}\n",
         plan.load_count,

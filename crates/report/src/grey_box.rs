@@ -107,7 +107,7 @@ pub fn grey_box_text(record: &GreyBoxRecord, width: Option<usize>) -> String {
     let source = record.recording.as_deref().map_or(String::new(), |recording| format!("{}, ", printable(recording)));
     let mut text = format!("{source}{}\n", printable(&record.log));
     text += &format!(
-        "{}, fitted at {} to the {} speeds of the rotors\n",
+        "{}: the model is fitted at {} to the {} speeds of the rotors\n",
         record.vehicle,
         counted(record.fit.observations, "moment"),
         if record.are_speeds_logged { "logged" } else { "heard" }
@@ -124,8 +124,9 @@ pub fn grey_box_text(record: &GreyBoxRecord, width: Option<usize>) -> String {
 
 /// The two tables of a grey box: gains of eq 1, and eq 2 with hover.
 pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
-    let gains = TitledTable::new("Eq 1, gains about hover", gains_table(record));
-    [gains, TitledTable::new("Eq 2 and hover", motor_table(record))]
+    let gains =
+        TitledTable::new("Gains of the control loops near hover (equation 1 of docs/greybox.md)", gains_table(record));
+    [gains, TitledTable::new("Motors and hover (equation 2 of docs/greybox.md)", motor_table(record))]
 }
 
 /// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
@@ -142,7 +143,7 @@ pub(crate) fn trust(record: &GreyBoxRecord) -> String {
         return "the numbers may be wrong by more than their ±: the warnings name the reason".to_owned();
     }
     if !record.fit.information.correlations.is_empty() {
-        return "the ± may be too small, because the flight hardly tells some of these numbers from each other: the lines below name them".to_owned();
+        return "the ± may be too small, because some of these numbers have nearly the same effect in this flight: the last line names them".to_owned();
     }
     if record.length_s < TESTED_S {
         return format!(
@@ -178,13 +179,13 @@ fn negative_delay(record: &GreyBoxRecord) -> Option<String> {
     let row_ms = significant(1e3 * record.row_s, 2);
     let meaning = match least_s <= record.row_s {
         true => format!(
-            "this is no fault: the log has a row every {row_ms} ms, and knows the time of a command only to one row"
+            "this is no fault: the log has a row every {row_ms} ms, so the time of a command may be wrong by this much"
         ),
-        false => format!(
-            "and this is more than the {row_ms} ms between two rows of the log: the clocks or the model do not fit"
-        ),
+        false => {
+            format!("it is more than the {row_ms} ms between two rows of the log: the clocks or the model do not fit")
+        }
     };
-    Some(format!("{} is negative, which no delay is; {meaning}", delay.in_words()))
+    Some(format!("{} is negative, although no true delay is; {meaning}", delay.in_words()))
 }
 
 /// What speaks against the model: gains that no controller has, and a rotor of another vehicle.
@@ -244,9 +245,9 @@ fn gains_table(record: &GreyBoxRecord) -> TextTable {
     let mut shown = TextTable::new(vec![
         Column::words("loop"),
         Column::words("gain"),
-        Column::numbers("speed per error", ""),
+        Column::numbers("gain as rotor speed", ""),
         Column::words("unit"),
-        Column::numbers("in volts", ""),
+        Column::numbers("gain as voltage", ""),
         Column::words("unit"),
     ]);
     for axis in Axis::ALL {

@@ -93,8 +93,8 @@ impl SpeedRecord {
             self.alternatives().iter().find_map(|reading| Some((reading.speed.rev_s(), coefficient(reading)?)))?;
         let (low, high) = (THRUST_COEFFICIENT.start(), THRUST_COEFFICIENT.end());
         Some(format!(
-            "{SEVERAL_SPEEDS}, and the given facts contradict one of them: at {rev_s:.1} rev/s, diameter, mass and \
-             number of rotors mean a thrust coefficient of {}, and propellers have {low} to {high}; check {}",
+            "{SEVERAL_SPEEDS}. One of them, {rev_s:.1} rev/s, does not fit the given diameter, mass and number of rotors: the propellers \
+             would have a thrust coefficient C_T of {}, and propellers have {low} to {high}; check {}",
             significant(coefficient, 3),
             self.facts_to_check()
         ))
@@ -115,7 +115,7 @@ impl SpeedRecord {
         let order = self.order.lines_per_turn();
         let NoTone::NoSeries { only_rev_s, instead: None } = reason else { return None };
         let range = only_rev_s.map_or_else(String::new, |(low, high)| {
-            format!(" at {:.0} to {:.0} Hz, where {low:.0} to {high:.0} rev/s would sound", order * low, order * high)
+            format!(" at {:.0} to {:.0} Hz (its frequency at {low:.0} to {high:.0} rev/s)", order * low, order * high)
         });
         let (replaced, given) = (self.given_facts().replaced_by_blades(), self.given_facts().in_words("and"));
         (order > BLADES_MAX).then(|| {

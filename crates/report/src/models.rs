@@ -107,7 +107,7 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
             None => "the speed at which its thrust carries the vehicle",
         };
         words += &format!(
-            "the ± of the measured constant is {percent:.2} % (k = 2); the last column: in the first row {first}; in the others the speed at which the measured vehicle would hover with the constant of the row\n"
+            "the ± of the measured constant is {percent:.2} % (k = 2). The last column has, in the first row, {first}; in every other row, the speed at which the measured vehicle would hover with the constant of this row\n"
         );
     }
     words

@@ -25,7 +25,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
-        text += "the rows of this log are too far apart for a time constant; log the speeds every 20 ms or faster\n";
+        text += "the rows of this log are more than 100 ms apart: this is too far for a time constant; log the speeds every 20 ms or faster\n";
     } else if !has_steps {
         text += match record.source {
             MotorSource::Log => {
@@ -87,7 +87,7 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {
                 let offset_s = fixed(offset_s, 3);
                 format!("offset of the commands: {offset_s} s, found from the steps. So the dead time (from a command to the start of its effect) is not \
-                known; if you know the offset between the clocks, give --offset\n")
+                known; if you know the true offset, give --offset\n")
             });
             heard + &offset
         }
@@ -188,8 +188,8 @@ fn load_text(constants: &MotorConstants) -> String {
             format!("rising steps to {LOAD_STEPS_MIN} different speeds are needed, and there {are} {count}")
         } else {
             format!(
-                "the time constants of the {count} rising steps are too uncertain, or their speeds are too alike; more \
-                rising steps to different speeds may show it"
+                "the time constants of the {count} rising steps are too uncertain for this range of speeds; make more \
+                rising steps, to speeds that differ more"
             )
         };
         return format!("not known whether the time constant changes with the speed: {why}\n");
@@ -206,8 +206,8 @@ fn torque_text(torque: &BenchTorque) -> String {
         BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
             let offset = significant(*offset_n_m, 2);
             let how = format!(
-                " (± of the fit alone, k = 2), from the torque at {level_count} steady speeds; at rest, the fit gives \
-                {offset} N m: this is the zero of the torque sensor"
+                " (k = 2, without the error of the torque sensor), from the torque at {level_count} steady speeds; at speed 0, the straight \
+                line through them has {offset} N m: this is an offset of the sensor, and no part of C_τ"
             );
             Ok((*constant_n_m_s2, how))
         }
@@ -242,6 +242,6 @@ fn simulator_lines(constants: &MotorConstants) -> String {
     }
     let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
     format!(
-        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity: the largest speed that lasts for some rows of this file; the motor may turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
+        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity: the largest speed in this file, without short peaks; the motor may turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
     )
 }

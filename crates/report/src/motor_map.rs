@@ -29,18 +29,16 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
     if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
-        text += "gain: change of the steady speed per unit of the command; it holds only between the smallest and the \
-        largest of these commands, without the saturated ones\n";
+        text += "gain: change of the steady speed per unit of the command; it holds between the smallest and the largest command below that is not \
+        saturated\n";
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "no motor is held at two different commands, so each gain comes from all log rows. The speed lags behind \
-        the command, so the true gain is larger, and its ± does not contain this. For a better gain, hold at least two \
-        commands for a second each\n";
+        text += "if a motor is not held at two different commands, its gain comes from all log rows. There the speed lags behind the command, so the true \
+        gain is larger than this one, by more than the ±. For a better gain, hold at least two commands for a second each\n";
     }
     let offsets = || maps().filter(|map| map.gain_rev_s.is_some()).filter_map(|map| map.offset_rev_s);
     if offsets().any(|offset_rev_s| offset_rev_s >= 0.0) {
-        text +=
-            "line at command 0: the speed is this number + gain × command; near command 0 the motor may stand still\n";
+        text += "speed at command 0: by the straight line speed = speed at command 0 + gain × command; near command 0 the motor may stand still\n";
     }
     if maps().filter_map(|map| map.gain_rev_s).any(is_nothing) {
         text += "a gain whose ± is larger than the gain shows nothing: the commands differ too little\n";
@@ -65,7 +63,7 @@ fn gains_table(record: &MotorRecord) -> TextTable {
     };
     // no rotor turns backwards at the command 0: such a motor has a threshold
     let has_offsets = record.motors.iter().filter_map(told_of).any(|(_, offset_rev_s)| offset_rev_s >= 0.0);
-    let offset = Column::numbers("line at command 0", "rev/s");
+    let offset = Column::numbers("speed at command 0", "rev/s");
     // a command with the number of its motor tells nothing more
     let is_of_other = |motor: &LoggedMotor| motor.command.as_ref().is_some_and(|command| *command != motor.name);
     let has_names = record.motors.iter().any(is_of_other);

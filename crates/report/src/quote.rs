@@ -23,7 +23,10 @@ impl Verdict {
         let misfits: Vec<&str> =
             table.loads.iter().filter(|load| load.fits == Some(false)).map(|load| load.name.as_str()).collect();
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
-            format!(" (χ² = {:.2}, {})", agreement.chi_square, p_value_text(agreement.p_value))
+            format!(
+                " (chance of such differences or larger ones between loads that agree: {})",
+                p_value_text(agreement.p_value)
+            )
         });
         if let Some(foreign) = table.warnings.iter().find(|warning| warning.is_of_other_vehicle()) {
             return Self::Fails(foreign.to_string());
@@ -120,7 +123,7 @@ pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<Str
         (whole, "separated"),
         (partly, of_some),
         (counts.group, "heard as a group"),
-        (counts.one_tone, "with one tone for all"),
+        (counts.one_tone, "heard as one tone"),
     ];
     let parts: Vec<String> = parts
         .into_iter()

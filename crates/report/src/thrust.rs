@@ -15,7 +15,7 @@ pub(crate) const CONSTANT_UNIT: &str = "N s²";
 pub(crate) const WITHOUT_FLIGHTS: &str = ", without the differences from flight to flight";
 
 /// The meaning of ± in a table of loads.
-pub const LOADS_FOOTNOTE: &str = "The ± in the row of a load has only its mass and its speed (k = 2). The ± of the final C_f has all lines of the budget of the uncertainty, also those that all loads share.";
+pub const LOADS_FOOTNOTE: &str = "The ± in the row of a load includes only the uncertainties of its mass and its speed (k = 2). The ± of the final C_f includes the whole uncertainty budget, also what all loads share.";
 
 /// The table of one method: a row for each load, like tables 1 and 2 of the paper.
 pub fn thrust_table(table: &ThrustTable) -> TextTable {
@@ -150,7 +150,7 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method, width: Option<us
     let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
     let coefficients = coefficients.map_or(String::new(), |both| {
         format!(
-            "\nthrust coefficient C_T of one rotor: {} as for propellers, T/(ρ n² D⁴); {} as for helicopters, T/(ρ A (ωR)²); in air of {} kg/m³\n",
+            "\nthrust coefficient C_T of one rotor: {} as for propellers, F/(ρ n² D⁴); {} as for helicopters, F/(ρ A (ωR)²); F is its thrust, n its turns per second, D, R and A its diameter, radius and disk area, and ρ = {} kg/m³ the density of the air\n",
             significant(both.propeller, 4),
             significant(both.rotorcraft, 4),
             significant(both.density_kg_m3, 4),

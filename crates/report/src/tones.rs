@@ -72,9 +72,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     let remark = rotor.and_then(|rotor| found.families.get(rotor)).and_then(|family| family.remark);
     let verdict = match (rotor, remark) {
         (Some(_), Some(Remark::SingleLine)) => "a single tone, of a rotor or of something else".to_owned(),
-        (Some(_), _) if record.is_ambiguous() => {
-            "a rotor, but the sound does not show which of these speeds it has".to_owned()
-        }
+        (Some(_), _) if record.is_ambiguous() => "a rotor with several possible speeds: see the table".to_owned(),
         (Some(_), _) => record.speed().map_or("a rotor".to_owned(), |heard| heard_in_words(record, heard)),
         (None, _) if record.is_part_outside() => "the chosen part lies after the end of the recording".to_owned(),
         (None, _) if found.families.is_empty() => "no rotor tone, and no other tone".to_owned(),
@@ -242,7 +240,7 @@ fn line_of_rotor(family: &ToneFamily, rotor: &ToneFamily) -> Option<String> {
     is_near.then(|| {
         let rev_s = significant(family.fundamental_hz / (harmonic * blades), DIGITS);
         format!(
-            "perhaps {harmonic} times the tone of another rotor of the same vehicle ({}: {rev_s} rev/s)",
+            "perhaps {harmonic} times the tone of another rotor of this vehicle, at {rev_s} rev/s ({})",
             reading.meaning
         )
     })
@@ -250,17 +248,17 @@ fn line_of_rotor(family: &ToneFamily, rotor: &ToneFamily) -> Option<String> {
 
 fn readings_in_a_line(family: &ToneFamily, of_rotor: Option<&str>) -> String {
     let words: Vec<String> = possible_readings(family)
-        .map(|reading| format!("{}: {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
+        .map(|reading| format!("{} rev/s ({})", significant(reading.speed.rev_s(), DIGITS), reading.meaning))
         .collect();
     match words.is_empty() {
         true if let Some(of_rotor) = of_rotor => format!("{INDENT}{of_rotor}\n"),
         true => {
             let why = each_once(family.readings.iter().map(|reading| reading.why.as_str()));
-            format!("{INDENT}no speed of a rotor explains it ({why})\n")
+            format!("{INDENT}no rotor can have this tone ({why})\n")
         }
         false => match of_rotor {
-            Some(of_rotor) => format!("{INDENT}{of_rotor}; if it is a tone of its own: {}\n", words.join(" · ")),
-            None => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
+            Some(of_rotor) => format!("{INDENT}{of_rotor}; if it is the tone of a rotor: {}\n", words.join(" · ")),
+            None => format!("{INDENT}if it is the tone of a rotor: {}\n", words.join(" · ")),
         },
     }
 }

@@ -20,7 +20,7 @@ const POLE_PAIRS: RangeInclusive<f64> = 5.0..=14.0;
 const UNIT_SHARE: f64 = 0.02;
 
 /// Why equal means do not show that the log is of this flight: the speeds are steady, or the heard ones do not follow quick changes.
-const OFFSET_NOT_KNOWN: &str = "the offset of the clocks is not known";
+const OFFSET_NOT_KNOWN: &str = "nothing shows which offset of the log is right";
 
 /// A verification with the names of its files.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
         Column::numbers("heard", "rev/s"),
         Column::numbers("heard − logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),
-        Column::numbers("log within ± of the sound", ""),
+        Column::numbers("logged speeds within ±", ""),
         Column::numbers("points", ""),
     ]);
     for (number, rotor) in (1..).zip(&found.rotors) {
@@ -82,18 +82,18 @@ fn offset_in_words(found: &Verification) -> String {
     let used = signed(found.offset_s, 1);
     if let Some(better_s) = found.better_offset_s.filter(|_| found.is_offset_given) {
         return format!(
-            "offset of the log: {used} s is used, as --log-offset-s allows, but the speeds agree clearly better at {} s\n",
+            "offset of the log: {used} s is used, within --log-offset-s, but the speeds fit clearly better at {} s\n",
             signed(better_s, 1)
         );
     }
     if found.is_offset_given {
         return format!(
-            "offset of the log: {used} s is used, as --log-offset-s allows; the speeds alone do not show it\n"
+            "offset of the log: {used} s is used, within --log-offset-s; the speeds do not show whether it is right\n"
         );
     }
     format!(
-        "offset of the log: not known, because the speeds agree nearly as well at other offsets; in this table, {used} s are \
-         added to the clock of the log\n"
+        "offset of the log: not known, because no offset fits clearly better than all others; the table above adds {used} s to \
+         the clock of the log\n"
     )
 }
 
@@ -105,7 +105,7 @@ fn verdict_in_words(found: &Verification) -> String {
         let Notice { text, hint, .. } = undecided.notice(found);
         let limits = match undecided {
             Undecided::UnknownOffset => {
-                "; or, if you know the offset of the clocks, give it with --log-offset-s LOW:HIGH"
+                "; or, if you know the offset of the log, give it with --log-offset-s LOW:HIGH, limits at most 2 s apart"
             }
             _ => "",
         };
@@ -114,7 +114,8 @@ fn verdict_in_words(found: &Verification) -> String {
     let percent = percent_of(found);
     // order and clock are judged apart from the ±
     let small = small_plus_minus(found);
-    let small = small.map_or(String::new(), |Notice { text, hint, .. }| format!("\n±: not passed; {text}; {hint}"));
+    let small = small
+        .map_or(String::new(), |Notice { text, hint, .. }| format!("\nthis does not hold for the ±: {text}; {hint}"));
     format!(
         "passed: the number of blades (or the gear) is right, and the clock is right within {} %; the mean of the heard speeds differs \
         from the log by {percent} %{small}",
@@ -218,7 +219,7 @@ enum Undecided {
     OffsetOutside(f64),
     /// Too few logged speeds lie within the ± of the heard ones.
     FewWithin,
-    /// The speeds are too steady to show the offset of the clocks, or the heard ones do not follow quick changes.
+    /// The speeds are too steady to show the offset of the log, or the heard ones do not follow quick changes.
     UnknownOffset,
 }
 
@@ -251,12 +252,12 @@ impl Undecided {
             }
             Self::FewWithin => Notice::new(
                 format!("{means} {few}"),
-                "check first that the log is of this flight, and then the offset of the clocks; if both are right, do not rely on the ± of the speed at a single moment",
+                "check first that the log is of this flight, and then the offset of the log; if both are right, do not rely on the ± of the speed at a single moment",
             ),
             Self::UnknownOffset => {
                 let also = if found.coverage() < COVERAGE_OF_HALF { format!(". Also, {few}") } else { String::new() };
                 Notice::new(
-                    format!("{means} {OFFSET_NOT_KNOWN}. So the log may be of another flight{also}"),
+                    format!("{means} {OFFSET_NOT_KNOWN}, so the log may be of another flight{also}"),
                     "record a flight with a few climbs that last a second or longer: they change all speeds at once",
                 )
             }

@@ -92,7 +92,7 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
             let is_none =
                 expanded(payload_kg.std_uncertainty).is_some_and(|expanded| expanded > payload_kg.value.abs());
             let or_none = match is_none {
-                true => "; there may be no payload, because the ± is larger",
+                true => "; the ± is larger than the payload, so there may be none",
                 false if payload_kg.value < 0.0 => {
                     "; no payload weighs less than nothing: check the constant, the mass of the vehicle, and the blades or the gear"
                 }

@@ -28,16 +28,16 @@ impl Wording {
             ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
             ("--harmonics 1", "harmonics = 1 under [tone]"),
             (
-                "the speed is the mean of all rotors, and its ± allows for this",
-                "C_f uses the mean speed of all rotors, and its ± allows for this",
+                "the speed is the mean of all rotors, and its ± includes that not all were separated",
+                "C_f uses the mean speed of all rotors, and its ± includes that not all were separated",
             ),
             (
                 "to separate them and get a smaller ±, ",
-                "C_f is still valid, and its ± allows for this; to separate them and get a smaller ±, ",
+                "the ± of C_f includes this uncertainty; to separate them and get a smaller ±, ",
             ),
             (
                 "if fewer rotors turn, give their number with --rotors",
-                "if fewer rotors turn on a bench, write rotors_running = N under its [[load]]",
+                "if fewer rotors turn on a bench, write rotors_running = N under the [[load]] of this recording",
             ),
             (
                 "if more rotors turn, give their number with --rotors; if not, ",

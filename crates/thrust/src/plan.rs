@@ -80,7 +80,7 @@ pub enum PlanError {
     Quantity(#[from] QuantityError),
     /// No number of flights reaches the wanted uncertainty.
     #[error(
-        "even many flights do not bring the uncertainty below {:.2} % (k = 2); the largest part that remains comes from: {}",
+        "with any number of flights, the ± of C_f stays above {:.2} % (k = 2); its largest part comes from: {}",
         100.0 * .best_share, .largest.title()
     )]
     OutOfReach {

@@ -85,12 +85,17 @@ pub(crate) fn mass_text(mass_kg: f64) -> String {
 pub(crate) fn either_mass_text(names: &[String], masses_that_fit_kg: &[f64]) -> String {
     match (names, masses_that_fit_kg) {
         ([one, other], [of_one_kg, of_other_kg]) => format!(
-            "; they would if \"{one}\" had a mass of {}, or \"{other}\" one of {}",
+            "; they would fit if \"{one}\" weighed {}, or if \"{other}\" weighed {}",
             mass_text(*of_one_kg),
             mass_text(*of_other_kg)
         ),
         _ => String::new(),
     }
+}
+
+/// A probability in percent; one that rounds to 100 is no certainty.
+pub(crate) fn probability_text(probability: f64) -> String {
+    if probability < 0.9995 { format!("{:.1} %", 100.0 * probability) } else { "above 99.9 %".to_owned() }
 }
 
 /// A ratio with two digits.

@@ -76,7 +76,7 @@ pub fn is_swamped(value: f64, std_uncertainty: f64) -> bool {
 #[non_exhaustive]
 pub enum ConfigError {
     /// A number outside its limits.
-    #[error("{name} = {value}, and it must be from {min} to {max}")]
+    #[error("{name} = {value}, but it must be from {min} to {max}")]
     OutOfRange {
         /// Name of the setting, as in files and flags.
         name: &'static str,

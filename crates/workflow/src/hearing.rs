@@ -314,7 +314,10 @@ fn written(settings: &impl Serialize) -> Value {
 fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     let reading = record.found_reading().filter(|_| record.speed().is_some())?;
     let text = format!("the number of blades is not given; the sound shows {} ({})", reading.meaning, reading.why);
-    Some(Notice::new(text, "if that is wrong, give --blades N; `hovertone tones` shows all possible speeds"))
+    Some(Notice::new(
+        text,
+        "if this is wrong, give --blades N (and --gear PINION:WHEEL for a gear); `hovertone tones` shows all possible speeds",
+    ))
 }
 
 /// Results of the passes over a recording.

@@ -73,8 +73,8 @@ fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
         false => {
-            "the means of all rotors are compared, because the rotors are not separated in both archives (`hovertone batch` without --mean-only separates them where it can; of one rotor that ran \
-            alone, the mean is its speed)\n"
+            "only the mean of all rotors is compared, because the two archives have no separated rotors to compare one by one (`hovertone batch` \
+            without --mean-only separates them where it can; if one rotor ran alone, the mean is its speed)\n"
         }
     }
 }
@@ -100,8 +100,8 @@ fn not_known_text(drift: &Drift) -> &'static str {
 
 fn p_value_text() -> String {
     format!(
-        "p-value: the chance of so large a difference by accident, where the rotors turn as before; where several are tested, it is raised for \
-         that (Holm 1979). Below {FALSE_ALARM_CHANCE}, the verdict is \"has changed\"\n"
+        "p-value: the chance of a difference this large or larger by accident, if no speed has changed. It allows for the number of tests \
+         (Holm 1979). Below {FALSE_ALARM_CHANCE}, the verdict is \"has changed\"\n"
     )
 }
 
@@ -130,7 +130,7 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
         table.push(cells);
     }
     let disagree = match drift.rotors.iter().any(|row| row.change.is_rotor_known && !row.change.has_changed) {
-        true => "single recordings have changed, but by different amounts: use the list, not the mean\n",
+        true => "single recordings show changes that the upper table does not show: use the list too\n",
         false => "",
     };
     let more = match changed.len().saturating_sub(RECORDINGS_MAX) {

@@ -101,7 +101,8 @@ impl fmt::Display for Counts {
             write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }
         if self.cut_short > 0 {
-            write!(f, "; {} of them {} too early", self.cut_short, if self.cut_short == 1 { "ends" } else { "end" })?;
+            let (noun, verb) = if self.cut_short == 1 { ("recording", "ends") } else { ("recordings", "end") };
+            write!(f, "; {} {noun} {verb} too early", self.cut_short)?;
         }
         Ok(())
     }

@@ -83,8 +83,8 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
     written.iter().flat_map(|written| &written.failed).for_each(|failed| terminal.error(failed));
     if written.as_ref().is_some_and(|written| !written.failed.is_empty()) {
         terminal.tip(&Notice::new(
-            "the next run hears a recording that failed again only if its file has changed",
-            "to hear it again in any case, run the same command with --retry",
+            "the next run skips each recording that failed, unless its file has changed",
+            "to hear such recordings again in any case, run the same command with --retry",
         ));
     }
     let overview = folder.place(tables::OVERVIEW);
@@ -130,7 +130,7 @@ fn say(said: &Said<'_>, wants_json: bool, terminal: &mut Terminal) -> Result<(),
     let place = |name: &str| printable(&said.folder.place(name).display().to_string());
     let text = match said.all {
         Some(counts) => format!(
-            "{}: {counts}\nheard in this run: {}\ntables: {}, {}\npage: {}{}\n",
+            "{}: {counts}\nworked on in this run: {}\ntables: {}, {}\npage: {}{}\n",
             counted(recording_count, "recording"),
             said.heard.total(),
             place(tables::RECORDINGS),

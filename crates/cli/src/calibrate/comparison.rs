@@ -170,11 +170,11 @@ pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Opt
     let slip = [2.0, 3.0, 4.0, 0.5].into_iter().find(|slip| is_near(*slip, SLIP_SHARE));
     let checked = |slip| {
         format!(
-            "; about {about} rpm are heard, {}: check the number of blades, also in the settings of the tachometer",
+            "; the heard speed is about {about} rpm, {}: check the number of blades, also in the settings of the tachometer",
             of_known(slip)
         )
     };
-    Some(slip.map_or_else(|| format!("; about {about} rpm are heard"), checked))
+    Some(slip.map_or_else(|| format!("; the heard speed is about {about} rpm"), checked))
 }
 
 /// The comparison for people.
@@ -307,7 +307,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         format!("it runs {direction} by {off}")
     } else {
         let off = in_ppm(check.correction_ppm, check.correction_std_ppm);
-        format!("it may run fast or slow: the correction is {off}")
+        format!("its error is {off}, so it may run fast, slow or right")
     };
     let advice = match judgement {
         // each of the two alone would leave it open
@@ -324,8 +324,9 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     };
     let verdict = word(judgement);
     let limit_ppm = arguments.clock_ppm;
-    let mut text =
-        format!("clock: {verdict}, {off} (millionths, k = 2); the limit is {limit_ppm} ppm (--clock-ppm){advice}\n");
+    let mut text = format!(
+        "clock: {verdict}: {off} (millionths, k = 2); an error of up to {limit_ppm} ppm passes (--clock-ppm){advice}\n"
+    );
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
         format!(
@@ -336,15 +337,15 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let decimals = correction_decimals(check.expanded_ppm());
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         let is_exact = comparison.reference.std_share() == 0.0;
-        let right = if is_exact { "exact (--known-std-ppm gives its uncertainty)" } else { "right to its ±" };
+        let right = if is_exact { "exact (--known-std-ppm gives its uncertainty)" } else { "right within its ±" };
         format!(
             "correction of the clock, if the known number is {right}: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
              [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}  # error that may remain: clocks change with temperature\n",
+             clock_ppm = {}  # error that may remain: the ± of the correction, and {WARMTH_PPM} or more by the temperature\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {
-        "correction of the clock: none, because the difference is smaller than its ±\n".to_owned()
+        "correction of the clock: none, because the error is smaller than its ±\n".to_owned()
     };
     text
 }

@@ -35,8 +35,8 @@ const OTHER_ROTOR: &str = "other_rotor";
 const HARDLY_HEARD: &str = "tone_hardly_heard";
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
-const SEVERAL_IN_WORDS: &str = "several rotors are heard, or one rotor whose speed changes, and the known speed belongs to \
-                                one steady rotor";
+const SEVERAL_IN_WORDS: &str =
+    "the known speed must be that of one steady rotor, but several rotors are heard, or one rotor whose speed changes";
 const RECORD_ONE: &str = "record one rotor that runs alone, at a steady throttle";
 const SEE_HELP: &str = "for example `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 const SEE_HELP_OF_SPEED: &str =
@@ -134,7 +134,7 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress)
     if let Some(record) = record.as_ref().filter(|record| record.is_ambiguous()) {
         return undecided(
             AMBIGUOUS,
-            format!("several rotor speeds fit this sound; {}", settled_by(plan, record.order)),
+            format!("several rotor speeds explain this sound; {}", settled_by(plan, record.order)),
         );
     }
     let speed = record.as_ref().and_then(|record| {
@@ -349,7 +349,7 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
 
 fn check_known(name: &'static str, value: f64, allowed: RangeInclusive<f64>) -> Result<(), Failure> {
     check_range(name, value, *allowed.start(), *allowed.end()).map_err(|error| {
-        Failure::usage(error.to_string(), "check the unit: --tachometer-rpm is in rpm, --true-hz is in Hz")
+        Failure::usage(error.to_string(), "check the unit: --tachometer-rpm is in turns per minute (60 times the turns per second), --true-hz is in Hz")
     })
 }
 

@@ -74,7 +74,8 @@ const FOOTNOTE: &str = "
 Maximum trace and Gaussian approximation are the methods of the paper.
 The columns \"paper\" have the numbers of the paper, in rpm, in rad/s, and in 1e-5 N s² for the whole
 vehicle. For the big hull, the paper gives 462 g but calculated with 472 g, so its C_f is larger there.
-The simulation flies 462 g. With 462 g, the paper's speeds give 2.8291 (table 1) and 2.8260 (table 2).
+The simulation flies 462 g. With 462 g, the paper's speeds give C_f = 2.8291e-5 N s² (table 1) and
+2.8260e-5 N s² (table 2).
 ";
 
 fn title_beside_paper(table: &ThrustTable) -> String {

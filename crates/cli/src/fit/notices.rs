@@ -5,7 +5,7 @@ use hovertone::thrust::{
     ForceLaw, ForcePoint, LoadRange, SquareLawFit, ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach,
 };
 use hovertone_exchange::{StandGroup, StandTable};
-use hovertone_report::{Notice, fixed, signed, significant};
+use hovertone_report::{Notice, fixed, significant};
 use hovertone_vehicle::{AIR_KG_M3, Estimate, RotorSpeed, THRUST_COEFFICIENT, TIP_MACH_MAX};
 
 /// The air changes C_T by less: thin air on the highest mountains has a third of the density at sea level.
@@ -50,10 +50,9 @@ pub(super) fn notice_of(
         ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
             let too_large = match stated.is_empty() {
                 true => String::new(),
-                false => format!("; or {} is too large", stated.join(" or ")),
+                false => format!("check whether the uncertainties in {} are too large; ", stated.join(" or ")),
             };
-            let hint =
-                format!("correct the rows that do not fit, if there are any; if not, measure more rows{too_large}");
+            let hint = format!("{too_large}correct the rows that do not fit; if all is right, measure more rows");
             Notice::new(warning.to_string(), hint)
         }
         ThrustWarning::NarrowLoadRange(_) if is_quiet && !stated.is_empty() => Notice::new(
@@ -69,10 +68,12 @@ pub(super) fn notice_of(
             "C_f is still valid near these forces; to test the law, measure a wider range of forces",
         ),
         ThrustWarning::OtherLawPreferred { law, .. } if let Some(WorstRow { name, share }) = worst => {
-            let zero = if *law == ForceLaw::SquareWithIntercept { "did the scale show 0 at rest? If so, " } else { "" };
-            let off = signed(100.0 * share, 1);
+            let zero =
+                if *law == ForceLaw::SquareWithIntercept { "check that the scale showed 0 at rest; " } else { "" };
+            let (percent, size) = (fixed(100.0 * share.abs(), 1), if *share < 0.0 { "small" } else { "large" });
             let hint = format!(
-                "{zero}simulators use F = C_f ω², which is {off} % off at {name} of the table: use C_f only if this is near enough, and else the preferred law"
+                "{zero}simulators use F = C_f ω². Its largest error is at {name} of the table: there, its force is {percent} % too {size}. If this is too \
+                 much, use the preferred law"
             );
             Notice::new(warning.to_string(), hint)
         }
@@ -86,7 +87,8 @@ pub(super) fn notice_of(
             let has_speed = stated.iter().any(|column| column.contains("speed") || column.contains("rpm"));
             let no_speed =
                 if has_speed { "" } else { "; or the speeds are uncertain too: add a column such as speed_std_rpm" };
-            let hint = format!("{}; or {} is too small{no_speed}", warning.hint(), stated.join(" or "));
+            let hint =
+                format!("{}; or the uncertainties in {} are too small{no_speed}", warning.hint(), stated.join(" or "));
             Notice::new(warning.to_string(), hint)
         }
         _ => Notice::from(warning),
@@ -139,7 +141,8 @@ pub(super) fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_coun
     let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
     let mach = if tip_mach < MACH_WITH_DECIMALS_MAX { fixed(tip_mach, 2) } else { format!("{tip_mach:.0e}") };
     let text = format!(
-        "no propeller has this thrust at this speed: one that is large enough would have blade tips at Mach {mach} (times the speed of sound) or faster"
+        "no propeller has this thrust at this speed: its blade tips would move at Mach {mach} (times the speed of sound) or faster, and those of \
+         multirotors stay below Mach {TIP_MACH_MAX}"
     );
     let rotors = match is_count_given {
         true => "and --rotors",

@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
             &mut Dialog::new(io::stdin().lock(), io::stderr(), width_of(&io::stderr())),
         )?,
         missing => {
-            let what = "init can ask questions only in a terminal, and this is none";
+            let what = "init asks questions, and needs a terminal for them";
             let hint = format!("run it in a terminal, or add flags: {}", missing.join("; and "));
             return Err(Failure::usage(what, hint));
         }

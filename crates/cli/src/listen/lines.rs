@@ -9,7 +9,7 @@ use hovertone_workflow::{LiveLine, live_remark, live_status_in_words, live_words
 /// Live speeds of one second, of which a line of text tells the last.
 const SPEEDS_PER_LINE: usize = 10;
 /// Names of the columns, above the first line.
-const HEAD: &str = "      time       level  mean speed of the rotors (± is k = 2; 0 dB: the loudest possible sine)\n";
+const HEAD: &str = "      time       level  mean speed of the rotors (±: k = 2; level 0 dB: the loudest tone that a recording can hold)\n";
 
 /// One line of JSON.
 pub(crate) fn json_line(speed: &LiveSpeed, listener: &Listener) -> Result<String, Failure> {

@@ -122,9 +122,9 @@ impl LiveSummary {
                 )
             }
             None if self.listening_count == self.count => {
-                format!("no speed: {end_s} s of sound are too short; hear 3 s or more")
+                format!("no speed: {end_s} s of sound are too short: 3 s or more are needed")
             }
-            None if self.ambiguous_count > 0 => format!("no single speed was heard in {end_s} s"),
+            None if self.ambiguous_count > 0 => format!("no speed was clear in {end_s} s"),
             None => format!("no speed was heard in {end_s} s"),
         };
         if self.ambiguous_count > 0 {
@@ -132,12 +132,12 @@ impl LiveSummary {
             words += &format!("; for {open_s} s several speeds were possible");
         }
         if self.is_open() {
-            words += &format!("; if a rotor sounds, {}", advice.which_is_right());
+            words += &format!("; if this is a rotor, {}", advice.which_is_right());
         } else if self.settled_count > 0 && !self.is_held() {
             let (held_s, held_s_min) = (fixed(self.part_s(self.held_count_max), 1), fixed(self.held_s_min, 0));
             words += &format!(
-                ", and for {held_s} s without a gap; a mean needs {held_s_min} s without a gap, or most of the sound. So short a \
-                 speed may come from another sound; if it is a rotor, hold one speed for longer, or place the microphone nearer"
+                ", at most {held_s} s without a gap; a mean needs one clear speed for {held_s_min} s without a gap, or for half of the time. A \
+                 shorter speed may come from another sound; if it is a rotor, hold one speed for longer, or place the microphone nearer"
             );
         }
         if let Some(contradiction) = self.contradiction().filter(|_| self.is_clear()) {
@@ -220,14 +220,15 @@ mod tests {
     #[test]
     fn what_is_not_settled_is_no_part_of_the_mean() {
         assert_eq!(told(&[(Listening, 20)]), "no speed: 2.0 s of sound are too short; hear 3 s or more\n");
-        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds were possible; if a rotor sounds, give --rotors\n";
+        let none =
+            "no speed was clear in 3.0 s; for 2.0 s several speeds were possible; if this is a rotor, give --rotors\n";
         assert_eq!(told(&[(Listening, 10), (Ambiguous, 20)]), none);
         let some = "mean: 60.00 ± 0.20 rev/s (± covers about 95 % of cases, k = 2), from 1.0 s of 3.0 s; for 1.0 s \
                     several speeds were possible\n";
         assert_eq!(told(&[(Listening, 10), (Ambiguous, 10), (Ok, 10)]), some);
         // what the later sound leaves open is open
-        let open = "no mean: one speed was clear in only 1.0 s of 3.0 s; for 1.0 s several speeds were possible; if a \
-                    rotor sounds, give --rotors\n";
+        let open = "no mean: one speed was clear in only 1.0 s of 3.0 s; for 1.0 s several speeds were possible; if this \
+                    is a rotor, give --rotors\n";
         assert_eq!(told(&[(Listening, 10), (Ok, 10), (Ambiguous, 10)]), open);
         assert!(told(&[(Ok, 20), (Ambiguous, 10)]).starts_with("mean: 60.00"));
     }
@@ -235,14 +236,14 @@ mod tests {
     /// Sound without a rotor may resemble one for some seconds.
     #[test]
     fn a_mean_is_of_a_speed_that_was_held_and_that_was_clear_for_longer_than_several_were_possible() {
-        let brief = "no mean: one speed was clear in only 2.4 s of 10.0 s, and for 2.4 s without a gap; a mean needs 3 s without a gap, or most of the \
-                     sound. So short a speed may come from another sound; if it is a rotor, hold one speed for longer, or place the microphone nearer\n";
+        let brief = "no mean: one speed was clear in only 2.4 s of 10.0 s, at most 2.4 s without a gap; a mean needs one clear speed for 3 s \
+                     without a gap, or for half of the time. A shorter speed may come from another sound; if it is a rotor, hold one speed for longer, or place the microphone nearer\n";
         assert_eq!(told(&[(Listening, 20), (NoRotorTone, 20), (Ok, 24), (NoRotorTone, 36)]), brief);
         assert!(told(&[(Listening, 20), (NoRotorTone, 20), (Ok, 31), (NoRotorTone, 129)]).starts_with("mean: "));
         let pieces = [(Ok, 20), (NoRotorTone, 50), (Ok, 20)];
         assert!(told(&pieces).starts_with("no mean: one speed was clear in only 4.0 s of 9.0 s"));
-        let open = "no mean: one speed was clear in only 4.0 s of 10.0 s; for 5.6 s several speeds were possible; if a \
-                    rotor sounds, give --rotors\n";
+        let open = "no mean: one speed was clear in only 4.0 s of 10.0 s; for 5.6 s several speeds were possible; if this \
+                    is a rotor, give --rotors\n";
         assert_eq!(told(&[(Ambiguous, 56), (NoRotorTone, 4), (Ok, 40)]), open);
     }
 
@@ -258,7 +259,7 @@ mod tests {
         let (is_settled, words) = with_contradicted(40);
         assert!(!is_settled && words.starts_with("mean: 60.00"), "{words}");
         let because = "from 4.0 s of 4.0 s; do not use this mean, because the sound contradicts --vehicle crazyflie: a rotor with 2 blades at \
-                       30.0 rev/s is more than 99 times as probable as one that fits them; check --vehicle crazyflie\n";
+                       30.0 rev/s is more than 99 times as probable as any rotor with these facts; check --vehicle crazyflie\n";
         assert!(words.ends_with(because), "{words}");
         let (is_settled, words) = with_contradicted(10);
         assert!(is_settled && !words.contains("contradicts"), "{words}");

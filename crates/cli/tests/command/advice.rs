@@ -185,8 +185,8 @@ fn a_rotor_as_steady_as_the_mains_is_not_said_to_be_hum() {
     let sound = folder.path().join("a.wav");
     write_hover(&sound, steady_hover("iris", RotorSpeed::from_rev_s(60.0), 6.0));
     let said = hovertone(&["speed", text(&sound), "--blades", "2", "--rotors", "1"]).ends_with(3).stderr;
-    assert!(said.contains("mains hum (from the power supply), or a rotor that turns as steadily"), "{said}");
-    assert!(said.contains("record it at another throttle"), "{said}");
+    assert!(said.contains("mains hum (from the power supply), or a rotor at a constant speed"), "{said}");
+    assert!(said.contains("record the rotor at another throttle"), "{said}");
 }
 
 #[test]

@@ -206,7 +206,7 @@ fn every_pure_tone_calibrates_a_good_clock() {
         let passed = hovertone(&["calibrate", "--true-hz", hz, text(&path)]).ends_with(0);
         // what is within its ± has no direction and no correction
         assert!(
-            passed.stdout.contains("it may run fast or slow: the correction is ")
+            passed.stdout.contains(", so it may run fast, slow or right (millionths")
                 && passed.stdout.contains("correction of the clock: none"),
             "{}",
             passed.stdout

@@ -31,7 +31,7 @@ fn a_mass_that_is_not_the_vehicles_is_asked_about() {
     }
     let load = format!("4.13={}", text(&wav));
     let check = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load, "--check"]).ends_with(0);
-    assert!(check.stderr.contains("(hint: the masses may be ten times too large or too small"), "{}", check.stderr);
+    assert!(check.stderr.contains("(hint: check the decimal point and the unit of this mass"), "{}", check.stderr);
     let load = format!("4.13={}", text(&wav));
     let run = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(3);
     assert!(run.stderr.contains("weighs 4130 g, 10 times"), "{}", run.stderr);

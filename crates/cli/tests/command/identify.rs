@@ -72,7 +72,7 @@ fn the_constant_of_a_hover_is_found_by_both_methods() {
     }
     // all four turn at one speed: a group that has a mean
     assert!(
-        run.stderr.contains("the 4 rotors could not be separated: they are heard as a group")
+        run.stderr.contains("the 4 rotors could not be separated, so only their mean speed is known")
             && run.stderr.contains("hint:"),
         "{}",
         run.stderr

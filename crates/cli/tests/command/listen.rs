@@ -73,12 +73,12 @@ fn sound_without_a_rotor_has_no_mean() {
         (
             "small-multirotors",
             "BACKGROUND_001.wav",
-            "several speeds were possible; if a rotor sounds, give --diameter-m",
+            "several speeds were possible; if this is a rotor, give --diameter-m",
         ),
         (
             "real",
             "BACKGROUND_006.flac",
-            "a mean needs 3 s without a gap, or most of the sound. So short a speed may come from another sound",
+            "a mean needs one clear speed for 3 s without a gap, or for half of the time. A shorter speed may come from another sound",
         ),
     ] {
         let Some(folder) = recordings(folder) else { return };
@@ -107,7 +107,7 @@ fn a_tone_of_the_given_blades_asks_for_no_other_blades() {
     let Some(folder) = recordings("small-multirotors") else { return };
     let file = folder.join("DRONE_001.wav");
     let run = hovertone(&["listen", "--blades", "2", "--speed", "1000", "--from-file", text(&file)]).ends_with(0);
-    let words = ["fits --blades 2 at 84.", "listen for longer, and if it stays so, check --blades 2"];
+    let words = ["fits --blades 2 (84.", "listen for longer; if this message stays, check --blades 2"];
     assert!(words.iter().all(|words| run.stdout.contains(words)), "{}", run.stdout);
     assert!(!run.stdout.contains("--blades 4") && !run.stdout.contains("the given facts"), "{}", run.stdout);
 }

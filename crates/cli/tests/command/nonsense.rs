@@ -291,8 +291,8 @@ fn a_weighed_mass_is_that_of_a_vehicle() {
         &[
             "payload weighs 10",
             "alone weighs 413 g",
-            "constant of one rotor?",
-            "for 4 such rotors give --constant-n-s2 0.00002828;",
+            "--constant-n-s2 needs the constant of the whole vehicle: if",
+            "is the constant of one of 4 rotors, give --constant-n-s2 0.00002828;",
         ],
     );
     // without a ± of the constant the mass has none, and says so

@@ -211,9 +211,7 @@ fn lines_of_other_rotors_are_called_that() {
     let speeds: Vec<f64> = run
         .stdout
         .lines()
-        .filter_map(|line| {
-            line.split_once(" of another rotor of the same vehicle (2 blades: ")?.1.split(' ').next()?.parse().ok()
-        })
+        .filter_map(|line| line.split_once(" of another rotor of this vehicle, at ")?.1.split(' ').next()?.parse().ok())
         .collect();
     assert!(speeds.len() >= 3 && speeds.iter().all(|speed| (81.0..87.0).contains(speed)), "{}", run.stdout);
 }

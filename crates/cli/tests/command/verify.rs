@@ -108,7 +108,8 @@ fn steady_speeds_do_not_show_whose_log_it_is() {
     let (sound, log) = write_steady_hover_and_log(folder.path());
     let asked = ["verify", text(&sound), text(&log), "--vehicle", "ardrone", "--mean-only"];
     let run = hovertone(&asked).ends_with(3);
-    for words in ["not decided: ", "the offset of the clocks is not known", "another flight", "--log-offset-s LOW:HIGH"]
+    for words in
+        ["not decided: ", "nothing shows which offset of the log is right", "another flight", "--log-offset-s LOW:HIGH"]
     {
         assert!(run.stdout.contains(words), "{words}: {}", run.stdout);
     }

@@ -49,9 +49,9 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         let axes = in_list(&unlimited, "and");
         advice.push(Advice {
             what: format!(
-                "the flight does not show the {limits} of {axes}, above which a command has no more effect: it stays below"
+                "the flight does not show the {limits} of {axes} (a command above its limit has no more effect), because its commands stay below"
             ),
-            hint: "use the model only for commands as large as in this flight".to_owned(),
+            hint: "use the model only for commands no larger than in this flight".to_owned(),
         });
     }
     if fit.estimate(Parameter::TimeConstant).is_none() {
@@ -72,7 +72,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     advice
 }
 
-/// That a flight hardly tells some parameters from each other; `None` where it tells all.
+/// That some parameters have nearly the same effect in a flight; `None` where it tells all.
 fn alike(correlations: &[Correlation]) -> Option<Advice> {
     let strongest = correlations.first()?.correlation;
     let mut names: Vec<String> = Vec::new();
@@ -83,7 +83,7 @@ fn alike(correlations: &[Correlation]) -> Option<Advice> {
     }
     Some(Advice {
         what: format!(
-            "{} have nearly the same effect in this flight, so each of them is uncertain (correlation up to {})",
+            "{} have nearly the same effect in this flight, so each of them is uncertain (largest correlation: {})",
             in_list(&names, "and"),
             format!("{strongest:.2}").replace('-', "−")
         ),

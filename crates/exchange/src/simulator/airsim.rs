@@ -31,7 +31,7 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> Result<String, ModelError> {
     };
     text += &format!("real_T air_density = {}f; // kg/m^3\n", plain(density));
     text += &format!("real_T propeller_diameter = {}f; // m\n", plain(diameter_m));
-    Ok(text + "// max_rpm: keep yours, and call calculateMaxThrust()\n")
+    Ok(text + "// max_rpm: copy it from your settings, and call calculateMaxThrust()\n")
 }
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {

@@ -14,12 +14,12 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
         .map(|index| {
             format!(
                 "<plugin filename=\"gz-sim-multicopter-motor-model-system\" name=\"gz::sim::systems::MulticopterMotorModel\">\n\
-                 \x20 <!-- classic: name='motor_{index}' filename='libgazebo_motor_model.so', the same elements -->\n\
+                 \x20 <!-- for Gazebo Classic: name='motor_{index}' filename='libgazebo_motor_model.so'; all elements stay the same -->\n\
                  \x20 <jointName>rotor_{index}_joint</jointName>\n\
                  \x20 <linkName>rotor_{index}</linkName>\n\
                  \x20 <motorNumber>{index}</motorNumber>\n\
                  \x20 <motorType>velocity</motorType>\n\
-                 \x20 <!-- turningDirection, timeConstantUp, timeConstantDown, maxRotVelocity: keep yours -->\n\
+                 \x20 <!-- turningDirection, timeConstantUp, timeConstantDown, maxRotVelocity: copy them from your model -->\n\
                  \x20 <motorConstant>{}</motorConstant> <!-- N/(rad/s)^2 -->\n\
                  \x20 {moment}\n\
                  </plugin>\n",
@@ -30,14 +30,14 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
     let mass = match rotor.mass_kg {
         Some(mass_kg) => {
             format!(
-                "<inertial>\n  <mass>{}</mass> <!-- kg, of the whole vehicle -->\n  <!-- inertia: keep yours \
-                -->\n</inertial>",
+                "<inertial>\n  <mass>{}</mass> <!-- kg, of the whole vehicle -->\n  <!-- inertia: copy it from \
+                your model -->\n</inertial>",
                 plain(mass_kg)
             )
         }
-        None => "<!-- mass and inertia: keep yours -->".to_owned(),
+        None => "<!-- mass and inertia: copy them from your model -->".to_owned(),
     };
-    let links = "<!-- the links rotor_N and their joints rotor_N_joint: keep yours -->\n";
+    let links = "<!-- the links rotor_N and their joints rotor_N_joint: copy them from your model -->\n";
     let base = format!("<link name=\"base_link\">\n{}</link>\n", indented(&mass, 2));
     let model = indented(&format!("{base}{links}{plugins}"), 4);
     let comment = indented(&xml_comment(rotor), 2);

@@ -35,7 +35,7 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
             None => format!("C_f = {} N/(rad/s)^2, uncertainty not known", number(units.n_s2())),
         },
         format!(
-            "the same: {} N/(rev/s)^2 = {} N/rpm^2 = {} g/rpm^2",
+            "in other units: {} N/(rev/s)^2 = {} N/rpm^2 = {} g/rpm^2",
             number(units.n_rev_s2()),
             number(units.n_rpm2()),
             number(units.g_rpm2())

@@ -19,7 +19,7 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
         attributes += &format!(" prop_radius=\"{}\"", plain(diameter_m / 2.0));
     }
     let mut text = xml_comment(rotor);
-    text += "<!-- kf in N/rpm^2, km in N m/rpm^2; arm, thrust2weight and the other attributes: keep yours -->\n";
+    text += "<!-- kf in N/rpm^2, km in N m/rpm^2; arm, thrust2weight and the other attributes: copy them from your model -->\n";
     if rotor.torque_constant_n_m_s2.is_none() {
         text += &format!("<!-- {} -->\n", missing_torque("km"));
     }
@@ -27,10 +27,10 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
     // a parser of URDF takes a mass only with an inertia, which is not known
     text += &match rotor.mass_kg {
         Some(mass_kg) => format!(
-            "<!-- for the inertial of base_link: <mass value=\"{}\" />; inertia: keep yours -->\n",
+            "<!-- for the inertial of base_link: <mass value=\"{}\" />; inertia: copy it from your model -->\n",
             plain(mass_kg)
         ),
-        None => "<!-- mass and inertia: keep yours -->\n".to_owned(),
+        None => "<!-- mass and inertia: copy them from your model -->\n".to_owned(),
     };
     text += "<link name=\"base_link\" />\n";
     let name = model_name(&rotor.vehicle_name);

@@ -85,7 +85,7 @@ impl TableNote {
                 "if they are standard uncertainties (k = 1), write std into the name, as in thrust_std_g"
             }
             Self::SpeedInHz { .. } => {
-                "if it is the frequency of a tone, divide it by the tones per turn (the number of blades); name the column speed_rev_s"
+                "if it is the frequency of the tone of the blades, divide it by the number of blades; then name the column speed_rev_s"
             }
             Self::QuantityMissing { .. } => {
                 "write the quantity into its name, as in thrust_std_percent or speed_std_percent"
@@ -130,7 +130,7 @@ impl fmt::Display for TableNote {
                 write!(f, "line {line} is left out: its thrust is zero, or has another sign than the others")
             }
             Self::Empty { lines, .. } if lines.len() > LINES_LISTED_MAX => {
-                write!(f, "rows left out because their speed or force is empty: {}", lines.len())
+                write!(f, "{} rows are left out: their speed or force is empty", lines.len())
             }
             Self::Empty { lines, .. } => {
                 let (noun, verb, their) =
@@ -140,7 +140,8 @@ impl fmt::Display for TableNote {
             }
             Self::AtRest { count, speed_rpm } => write!(
                 f,
-                "rows left out because they are slower than {speed_rpm:.0} rpm ({:.0} % of the fastest speed): {count}",
+                "{count} {}: slower than {speed_rpm:.0} rpm ({:.0} % of the fastest speed)",
+                if *count == 1 { "row is left out" } else { "rows are left out" },
                 100.0 * AT_REST_SHARE
             ),
         }

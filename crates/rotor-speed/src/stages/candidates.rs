@@ -139,12 +139,12 @@ pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, meaning: Meaning
     }
 }
 
-/// How well the levels of the harmonics fit a speed.
+/// How well the strengths of the lines fit a speed.
 fn fit_in_words(belief: f64) -> &'static str {
     match belief {
-        well if well >= 0.5 => "the levels of the harmonics fit this speed well",
-        fair if fair >= 0.1 => "the levels of the harmonics fit this speed",
-        _ => "the levels of the harmonics fit this speed badly",
+        well if well >= 0.5 => "the strengths of its lines fit this speed well",
+        fair if fair >= 0.1 => "the strengths of its lines fit this speed",
+        _ => "the strengths of its lines fit this speed badly",
     }
 }
 

@@ -27,7 +27,7 @@ impl ThrustWarning {
                 "check that each recording is under the right [[load]]; if so, check it alone with `hovertone speed`"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
-                "do not use this constant: the masses may be ten times too large or too small, so check their decimal points and units; a load needs its mass as flown, with the vehicle; check the name of the vehicle too"
+                "do not use this constant: check the decimal point and the unit of this mass; a load needs its mass as flown, vehicle and added mass together; check the name of the vehicle too"
             }
             Self::MassFarFromKnown { .. } => {
                 "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
@@ -82,7 +82,7 @@ impl ThrustWarning {
                 "do not use this constant: check the masses and which recording belongs to which load, then record each load five times"
             }
             Self::LoudestRotor => {
-                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer; the methods maximum_trace and gaussian never separate them"
+                "with rotor speeds 1 to 2 % apart, C_f can be off by 2 to 4 %, and the ± includes this error; to separate the rotors, place the microphone nearer, and do not choose the methods maximum_trace and gaussian"
             }
         }
     }
@@ -102,12 +102,12 @@ fn misfit_hint(is_row: bool, has_mass: bool, is_left_out: bool) -> &'static str 
 fn disagree_hint(has_added_mass: bool, loads: usize) -> &'static str {
     match (has_added_mass, loads) {
         (true, 2) => {
-            "weigh both again, and check which recording belongs to which load; is each added mass (added_mass_kg) without the mass of the vehicle?"
+            "weigh both again, and check which recording belongs to which load; added_mass_kg must not include the mass of the vehicle"
         }
         (false, 2) => "weigh both again, and check which recording belongs to which load",
         (true, _) => {
-            "check whether two masses are exchanged, and which recording belongs to which load; is each added mass (added_mass_kg) \
-             without the mass of the vehicle?"
+            "check whether two masses are exchanged, and which recording belongs to which load; added_mass_kg must not include the \
+             mass of the vehicle"
         }
         (false, _) => "check whether two masses are exchanged, and which recording belongs to which load",
     }

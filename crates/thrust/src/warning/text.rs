@@ -4,7 +4,7 @@ use super::ThrustWarning;
 use crate::statistics::COVERAGE_FACTOR;
 use crate::warning_words::{
     differ_text, drift_text, either_mass_text, first_names, foreign_text, groups_text, mass_text, misfit_text,
-    range_text, ratio_text, short_text,
+    probability_text, range_text, ratio_text, short_text,
 };
 use std::fmt;
 
@@ -38,7 +38,7 @@ impl fmt::Display for ThrustWarning {
             }
             Self::MassFarFromKnown { load, mass_kg, known_kg } => write!(
                 f,
-                "load \"{load}\" weighs {}, {} times as much as the named vehicle ({})",
+                "load \"{load}\" weighs {}, {} times the mass of the vehicle ({})",
                 mass_text(*mass_kg),
                 ratio_text(mass_kg / known_kg),
                 mass_text(*known_kg)
@@ -56,7 +56,7 @@ impl fmt::Display for ThrustWarning {
                 the other recordings")
             }
             Self::ConstantsSplit => f.write_str(
-                "the constants C_f form two groups that differ by a factor of two or more, and nothing shows which group is right",
+                "the constants C_f of the loads or rows form two groups: those of one group are twice those of the other, or more, and nothing shows which are right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
@@ -65,7 +65,7 @@ impl fmt::Display for ThrustWarning {
             Self::EqualLoads { count } => write!(f, "all {count} loads have the same force, or nearly so"),
             Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
             Self::OtherLawPreferred { law, probability } => {
-                write!(f, "the law {} fits the forces better than F = C_f ω²: its probability is {:.1} %", law.formula(), 100.0 * probability)
+                write!(f, "the law {} fits the forces better than F = C_f ω² (probability of this law: {})", law.formula(), probability_text(*probability))
             }
             Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {
@@ -80,8 +80,7 @@ impl fmt::Display for ThrustWarning {
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the mass of the vehicle, {:.1} g, comes from a preset or a model: this vehicle was not weighed", 1e3 * mass_kg)
             }
-            Self::LoudestRotor => f.write_str("the rotors were not separated: one tone is used for all of them, and it may be that of \
-            the loudest rotor alone"),
+            Self::LoudestRotor => f.write_str("the rotors were not separated: one tone is used for all, and it may come from the loudest rotor alone"),
             Self::TooUncertain { share, .. } => {
                 write!(f, "the ± of C_f is larger than C_f itself: it is {:.0} % (k = {COVERAGE_FACTOR})", 100.0 * share)
             }
@@ -95,7 +94,7 @@ fn one_each_text(load_count: usize) -> &'static str {
             "only one recording can be used, so the ± does not include how much the speed differs from flight to flight"
         }
         _ => {
-            "each load has one recording, so the law cannot be tested; the ± comes from the differences between the loads, and is large because they are few"
+            "each load has one recording, so the law cannot be tested; the ± comes from the differences between the loads, and is large, because the loads are few"
         }
     }
 }
