@@ -283,7 +283,7 @@ fn four_rotors_check_no_clock() {
     for said in [&["--blades", "2"][..], &["--vehicle", "crazyflie"], &["--blades", "2", "--band", "690:710"]] {
         let run = calibrated(&sound, said).ends_with(3);
         assert!(
-            run.stderr.contains("not decided: several rotors are heard") && run.stdout.is_empty(),
+            run.stderr.contains("not decided: the known speed must be that of one steady rotor, but several rotors are heard") && run.stdout.is_empty(),
             "{}",
             run.stderr
         );
