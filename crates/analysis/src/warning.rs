@@ -173,7 +173,7 @@ impl Warning {
             }
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { needed_s: Some(_), .. } => {
-                "choose a longer part with --from and --to, or record a longer hover"
+                "record a longer hover, or choose a longer part with --from and --to"
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
@@ -382,8 +382,8 @@ mod tests {
             Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: false, is_assumed: false, spread_share: 0.0058 };
         let unknown = Warning::RotorCountUnknown { spread_share: 0.0058 };
         for (warning, why, what_to_do) in [
-            (&one_tone, "may be the tone of one rotor", "get a smaller ±"),
-            (&unknown, "may come from one of several", "--rotors"),
+            (&one_tone, "may come from one rotor alone", "get a smaller ±"),
+            (&unknown, "may come from one of them alone", "--rotors"),
         ] {
             let text = warning.to_string();
             assert!(text.contains("speeds of the rotors differ by 0.6 %") && text.contains(why), "{text}");

@@ -1,7 +1,7 @@
 //! `hovertone weigh`: the mass of a hovering vehicle from its sound.
 
 use crate::args::WeighArguments;
-use crate::copies::refuse_copies;
+use crate::copies::{refuse_copies, tip_of_circle};
 use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
 use crate::foreign_speed::{advise_by_constant, foreign_speed};
@@ -68,6 +68,10 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let of_tone = warning_of_other_tone(&arguments.tone, results.as_ref())?;
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
     refuse_copies(&mut jobs, "give each recording once", None)?;
+    let behind_sha256 = results.as_ref().map_or(&[][..], |rotor| &rotor.recordings_sha256);
+    if let Some(notice) = tip_of_circle(&mut jobs, behind_sha256) {
+        terminal.tip(&notice);
+    }
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = plan.records_of(&jobs, hearing, &progress).into_iter();

@@ -9,7 +9,7 @@ pub(crate) const IN_PLACE_OF_FILE: Wording =
 const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     (
         "--from and --to",
-        "from_s and to_s: add -o DIR, write them (in s) under the [[load]] in DIR/experiment.toml, and give this file to `hovertone identify`",
+        "from_s and to_s (in s, under [[load]] in DIR/experiment.toml, which -o DIR writes; then give this file to `hovertone identify`)",
     ),
     ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),

@@ -44,6 +44,8 @@ pub struct IdentifiedRotor {
     pub forbids_use: bool,
     /// Warnings about the constant.
     pub doubts: Vec<Doubt>,
+    /// Hashes of the recordings behind the constant.
+    pub recordings_sha256: Vec<String>,
     /// Source of the numbers, for a comment.
     pub origin: String,
 }
@@ -241,6 +243,7 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
         trial_std_share: trial_std_share(&results),
         forbids_use,
         doubts: doubts(&results),
+        recordings_sha256: recordings_sha256(&results),
         origin: format!(
             "{}hovertone {} from {file} (sha256 {}){}",
             if forbids_use { "DO NOT USE THIS CONSTANT, its warnings say why: " } else { "" },
@@ -255,6 +258,11 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
 fn doubts(results: &Value) -> Vec<Doubt> {
     let lines = results.get("warnings").or_else(|| results.get("notices")).and_then(Value::as_array);
     lines.into_iter().flatten().filter_map(Value::as_str).map(Doubt::from_line).collect()
+}
+
+fn recordings_sha256(results: &Value) -> Vec<String> {
+    let inputs = results.get("inputs").and_then(Value::as_array).into_iter().flatten();
+    inputs.filter_map(|input| Some(input.pointer("/recording/sha256")?.as_str()?.to_owned())).collect()
 }
 
 /// The method, and in how many recordings the rotors were heard in which way, where several were sought: "rotors separated in 9 recordings,

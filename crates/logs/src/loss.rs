@@ -83,7 +83,10 @@ mod tests {
         assert_eq!(loss.in_words(), None);
         loss.add(LostPlace { from_byte: 990, bytes: 10, after_s: Some(1.25) });
         let words = loss.in_words().unwrap();
-        assert_eq!(words, "the log breaks off: its last 10 of 1000 bytes cannot be read, from byte 990, after 1.250 s");
+        assert_eq!(
+            words,
+            "the log breaks off: its last 10 of 1000 bytes cannot be read, from byte 990, at 1.250 s on the clock of the log"
+        );
         let mut loss = Loss { all_bytes: 1000, ..Loss::default() };
         loss.add(LostPlace { from_byte: 20, bytes: 10, after_s: None });
         let words = loss.in_words().unwrap();

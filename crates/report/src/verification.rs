@@ -19,6 +19,9 @@ const POLE_PAIRS: RangeInclusive<f64> = 5.0..=14.0;
 /// A ratio of speeds is that of two units if it is this near, as a share.
 const UNIT_SHARE: f64 = 0.02;
 
+/// Largest error of a recorder's clock, as a share.
+const CLOCK_SHARE_MAX: f64 = 0.01;
+
 /// Why equal means do not show that the log is of this flight: the speeds are steady, or the heard ones do not follow quick changes.
 const OFFSET_NOT_KNOWN: &str = "nothing shows which offset of the log is right";
 
@@ -114,8 +117,7 @@ fn verdict_in_words(found: &Verification) -> String {
     let percent = percent_of(found);
     // order and clock are judged apart from the ±
     let small = small_plus_minus(found);
-    let small = small
-        .map_or(String::new(), |Notice { text, hint, .. }| format!("\nthis does not hold for the ±: {text}; {hint}"));
+    let small = small.map_or(String::new(), |Notice { text, hint, .. }| format!("\nbut {text}; {hint}"));
     format!(
         "passed: the number of blades (or the gear) is right, and the clock is right within {} %; the mean of the heard speeds differs \
         from the log by {percent} %{small}",
@@ -177,8 +179,10 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
         )),
         None => Some(Notice::new(
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
-            "check the number of blades (or the gear) and the clock of the recorder; check that \
-            the log is of this flight",
+            match (found.speed_ratio - 1.0).abs() < CLOCK_SHARE_MAX {
+                true => "check that the log is of this flight; if it is, check the clock of the recorder",
+                false => "check that the log is of this flight; if it is, check the number of blades (or the gear)",
+            },
         )),
     }
 }
@@ -375,7 +379,7 @@ mod tests {
             [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]
         {
             let words = verdict(0.59, agreement);
-            assert!(words.starts_with("passed: the number of blades") && words.contains("\n±: not passed"), "{words}");
+            assert!(words.starts_with("passed: the number of blades") && words.contains("\nbut the ± "), "{words}");
             assert!(words.contains(word) && words.contains("only 59 % of the logged speeds"), "{words}");
             assert!(small_plus_minus(&verified(0.59, agreement)).is_some());
         }

@@ -11,6 +11,8 @@ use serde::Serialize;
 
 /// Digits of a mass without uncertainty.
 const DIGITS: usize = 3;
+/// Payload over the mass of its vehicle, above which a wrong constant is more probable: rotors that lift three times the vehicle are strong ones.
+const PAYLOAD_FACTOR: f64 = 2.0;
 
 #[derive(Serialize)]
 struct WeighedDocument<'a> {
@@ -96,6 +98,9 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
                 false if payload_kg.value < 0.0 => {
                     "; no payload weighs less than nothing: check the constant, the mass of the vehicle, and the blades or the gear"
                 }
+                false if payload_kg.value > PAYLOAD_FACTOR * (weighed.mass_kg.value - payload_kg.value) => {
+                    "; hardly any multirotor carries so much: check the constant, the mass of the vehicle, and the blades or the gear"
+                }
                 false => "",
             };
             format!("payload: {}{or_none}\n", grams(payload_kg))
@@ -136,5 +141,22 @@ mod tests {
         assert!(weighed(None, true).starts_with("hovers at 3820 rpm"));
         assert!(weighed(Some(0.0014), false).contains("(k = 2, without the differences from flight to flight)"));
         assert!(weighed(None, true).contains("if it is 0.38 kg, as in the list of vehicles, give --mass-kg 0.38)"));
+    }
+
+    #[test]
+    fn a_payload_that_hardly_any_multirotor_lifts_is_named() {
+        let weighed = |payload_kg: f64| {
+            let of = |value| Estimate { value, std_uncertainty: Some(0.01 * value), ending: Ending::Solved };
+            let weighed = WeighedHover {
+                mass_kg: of(0.4 + payload_kg),
+                payload_kg: Some(of(payload_kg)),
+                speed: RotorSpeed::from_rpm(3820.0),
+                recording_count: 5,
+                has_flight_scatter: true,
+            };
+            weighed_text(&weighed, None)
+        };
+        assert!(!weighed(0.6).contains("hardly any multirotor"));
+        assert!(weighed(1.2).contains("hardly any multirotor carries so much: check the constant"), "{}", weighed(1.2));
     }
 }

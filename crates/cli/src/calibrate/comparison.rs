@@ -24,6 +24,8 @@ const PPM_PER_PERCENT: f64 = 1e4;
 const CLOCK_PERCENT_MAX: f64 = CLOCK_CORRECTION_PPM_MAX / PPM_PER_PERCENT;
 /// What a crystal changes with the warmth of a room, in millionths: a correction is no better.
 const WARMTH_PPM: f64 = 5.0;
+/// Error that hardly any recorder exceeds, in millionths: quartz crystals are cut to 20 to 100.
+const USUAL_PPM_MAX: f64 = 200.0;
 
 /// What is known.
 #[derive(Clone, Copy)]
@@ -325,7 +327,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     let verdict = word(judgement);
     let limit_ppm = arguments.clock_ppm;
     let mut text = format!(
-        "clock: {verdict}: {off} (millionths, k = 2); an error of up to {limit_ppm} ppm passes (--clock-ppm){advice}\n"
+        "clock: {verdict}, {off} (millionths, k = 2); an error of up to {limit_ppm} ppm passes (--clock-ppm){advice}\n"
     );
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
@@ -338,8 +340,12 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         let is_exact = comparison.reference.std_share() == 0.0;
         let right = if is_exact { "exact (--known-std-ppm gives its uncertainty)" } else { "right within its ±" };
+        let unusual = match whole_ppm.abs() > USUAL_PPM_MAX {
+            true => format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known number first\n"),
+            false => String::new(),
+        };
         format!(
-            "correction of the clock, if the known number is {right}: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
+            "{unusual}correction of the clock, if the known number is {right}: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
              [recorder]\n  clock_correction_ppm = {ppm}\n  \
              clock_ppm = {}  # error that may remain: the ± of the correction, and {WARMTH_PPM} or more by the temperature\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)

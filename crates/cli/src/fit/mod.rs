@@ -61,15 +61,8 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
     if let Some(notice) = half_given(&arguments.air, &arguments.place) {
         terminal.tip(&notice);
     }
-    if arguments.json {
-        let mut all = Vec::new();
-        for path in &arguments.tables {
-            all.extend(fitted_tables(path, &plan)?);
-        }
-        terminal.data(&fitted_tables_json(&all).map_err(Failure::internal)?)?;
-        return Ok(ending_of(&all));
-    }
     let (mut is_first, mut ending) = (true, Ending::Done);
+    let mut of_json = Vec::new();
     for path in &arguments.tables {
         let tables = match fitted_tables(path, &plan) {
             Err(failure) if arguments.tables.len() > 1 => {
@@ -82,6 +75,10 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
         };
         let is_alone = tables.len() == 1 && arguments.tables.len() == 1;
         ending = ending.max(ending_of(&tables));
+        if arguments.json {
+            of_json.extend(tables);
+            continue;
+        }
         for table in tables {
             if !std::mem::take(&mut is_first) {
                 terminal.data("\n")?;
@@ -93,6 +90,9 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
             }
             terminal.text(&fitted_table_text(&table, terminal.fold_width()))?;
         }
+    }
+    if !of_json.is_empty() {
+        terminal.data(&fitted_tables_json(&of_json).map_err(Failure::internal)?)?;
     }
     Ok(ending)
 }

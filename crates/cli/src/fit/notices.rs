@@ -77,6 +77,9 @@ pub(super) fn notice_of(
             );
             Notice::new(warning.to_string(), hint)
         }
+        ThrustWarning::SingleLoad => {
+            Notice::new("only one row can be used, so the law cannot be tested", "measure more rows, at other speeds")
+        }
         // a table has no recordings, and no tone
         ThrustWarning::ConstantsSplit => Notice::new(
             warning.to_string(),
@@ -165,13 +168,11 @@ mod tests {
         assert!(
             notice_of(&of_rows, &columns, false, None)
                 .hint
-                .contains("; or thrust_std_g is too small; or the speeds are uncertain too")
+                .contains("; or the uncertainties in thrust_std_g are too small; or the speeds are uncertain too")
         );
         assert_eq!(notice_of(&of_rows, &[], false, None), Notice::from(&of_rows));
-        assert_eq!(
-            notice_of(&ThrustWarning::SingleLoad, &columns, false, None),
-            Notice::from(&ThrustWarning::SingleLoad)
-        );
+        // a table has rows, not loads
+        assert!(notice_of(&ThrustWarning::SingleLoad, &columns, false, None).text.starts_with("only one row"));
     }
 
     #[test]

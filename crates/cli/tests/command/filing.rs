@@ -71,6 +71,11 @@ fn one_flight_says_what_its_uncertainty_lacks() {
     let json: Value =
         serde_json::from_str(&hovertone(&[&weigh[..], &["--json"]].concat()).ends_with(0).stdout).unwrap();
     assert_eq!(json["has_flight_scatter"], false);
+    // the recording behind the constant has its mass by definition
+    let circle = "no independent result";
+    assert!(!weighed.stderr.contains(circle), "{}", weighed.stderr);
+    let own = hovertone(&["weigh", text(&a), text(&b), "--constant", text(&results)]).ends_with(0);
+    assert!(own.stderr.contains("a.wav, so this mass is ") && own.stderr.contains(circle), "{}", own.stderr);
     // two flights behind the constant show it
     let both = ["identify", "--vehicle", "ardrone", "--mass", "413g", text(&a), text(&b), "-o", text(&out), "--force"];
     let both = hovertone(&both).ends_with(0);

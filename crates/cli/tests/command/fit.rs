@@ -109,7 +109,7 @@ fn bad_tables_are_refused_or_flagged() {
         assert!(words.iter().all(|word| refused.stderr.contains(word)), "{rows:?}: {}", refused.stderr);
     }
     let one = run("rpm,mass_g,mass_std_g\n3600,413,1\n").ends_with(0).json_lines().remove(0);
-    assert!(one["notices"].to_string().contains("only one load"), "{one}");
+    assert!(one["notices"].to_string().contains("only one row"), "{one}");
     let equal = run("rpm,mass_g\n3600,413\n3610,413\n3605,413\n").ends_with(0).json_lines().remove(0);
     assert!(equal["notices"].to_string().contains("all 3 loads have the same force"), "{equal}");
     assert!(equal["fit"]["with_intercept"].is_null() && equal["fit"]["power_law"].is_null(), "{equal}");
@@ -225,4 +225,21 @@ fn a_table_of_masses_counts_gravity() {
     let (known, unknown) = (share(&["--gravity-m-s2", "9.8"]), share(&[]));
     assert!((unknown.powi(2) - known.powi(2)).sqrt() / (0.015 / 9.80665) - 1.0 < 0.01, "{known} {unknown}");
     assert!(unknown > 5.0 * known, "{known} {unknown}");
+}
+
+/// A table that cannot be read ends no answer about the others, in words and in JSON.
+#[test]
+fn a_bad_table_does_not_hide_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let (good, bad) = (folder.path().join("good.csv"), folder.path().join("bad.csv"));
+    std::fs::write(&good, "rpm,mass_g\n3600,413\n3818,462\n4025,515\n").unwrap();
+    std::fs::write(&bad, "rpm\n3600\n").unwrap();
+    let both = ["fit", text(&bad), text(&good)];
+    let words = hovertone(&both).ends_with(1);
+    let json = hovertone(&[&both[..], &["--json"]].concat()).ends_with(1);
+    assert!(words.stderr.contains("bad.csv") && words.stdout.contains("good.csv"), "{}{}", words.stderr, words.stdout);
+    assert!(json.stderr.contains("bad.csv"), "{}", json.stderr);
+    let document: Value = serde_json::from_str(&json.stdout).unwrap();
+    assert!(document["file"].as_str().unwrap().ends_with("good.csv"), "{document}");
+    assert!(hovertone(&["fit", text(&bad), text(&bad), "--json"]).ends_with(1).stdout.is_empty());
 }

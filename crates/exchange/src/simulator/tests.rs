@@ -23,6 +23,7 @@ pub(super) fn rotor() -> IdentifiedRotor {
         hover_command: Some(0.45),
         forbids_use: false,
         doubts: Vec::new(),
+        recordings_sha256: Vec::new(),
         origin: "a test".to_owned(),
     }
 }
