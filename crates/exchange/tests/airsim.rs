@@ -43,6 +43,7 @@ fn rotor() -> IdentifiedRotor {
         hover_command: None,
         forbids_use: false,
         doubts: Vec::new(),
+        recordings_sha256: Vec::new(),
         origin: "a test".to_owned(),
     }
 }
