@@ -134,7 +134,10 @@ mod tests {
         assert!(drawn.starts_with("if fewer rotors turn, give their number with --rotors;"), "{drawn}");
         assert!(!Wording::IN_FLIGHT.of(apart(true).hint()).contains("on a bench"));
         let in_file = Wording::IN_EXPERIMENT.of(apart(true).hint());
-        assert!(in_file.contains("on a bench, write rotors_running = N under its [[load]]"), "{in_file}");
+        assert!(
+            in_file.contains("on a bench, write rotors_running = N under the [[load]] of this recording"),
+            "{in_file}"
+        );
     }
 
     /// A known vehicle in a hover has its number of rotors: `--rotors` with another number is refused.

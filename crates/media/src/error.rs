@@ -147,7 +147,7 @@ pub enum MediaError {
     NoSampleInArray,
 
     /// An array whose rate is none.
-    #[error("rate_hz = {rate_hz}, and it must be 1 or more; give the number of audio samples per second")]
+    #[error("rate_hz = {rate_hz}, but it must be 1 or more; give the number of audio samples per second")]
     RateOfArray {
         /// The rate.
         rate_hz: f64,

@@ -50,7 +50,7 @@ def test_channels_and_strides():
     ("samples", "rate_hz", "error", "words"),
     [
         (np.zeros(9), None, hovertone.WrongUseError, "give rate_hz, the samples per second"),
-        (np.zeros(9), 0, hovertone.FileError, "array: rate_hz = 0, and it must be 1 or more"),
+        (np.zeros(9), 0, hovertone.FileError, "array: rate_hz = 0, but it must be 1 or more"),
         (np.zeros(9), float("nan"), hovertone.FileError, "rate_hz = NaN"),
         (np.zeros(0), 8000, hovertone.FileError, "the array has no audio samples"),
         (np.zeros((2, 9000)), 8000, hovertone.WrongUseError, "frames come first: give samples.T"),

@@ -168,7 +168,7 @@ mod tests {
             (OwnVehicle { shaft_speed_rev_s: Some((200.0, 40.0)), ..own() }, "shaft_speed_rev_s"),
             (OwnVehicle { shaft_speed_rev_s: Some((3600.0, 9000.0)), ..own() }, "3600 rpm are 60"),
             (OwnVehicle { shaft_speed_rev_s: Some((0.5, 90.0)), ..own() }, "from 1 to 1500"),
-            (OwnVehicle { rotors: 13, ..own() }, "rotors = 13, and it must be from 1 to 12"),
+            (OwnVehicle { rotors: 13, ..own() }, "rotors = 13, but it must be from 1 to 12"),
             (OwnVehicle { gear: Some(Gear { pinion: 69, wheel: 8 }), ..own() }, "swapped"),
             (OwnVehicle { mass_kg: Some(250.0), ..own() }, "Mach"),
             (

@@ -7,7 +7,7 @@ use std::fmt;
 
 /// A quantity out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} = {}, and it must be {must_be}", number_in_words(*value))]
+#[error("{name} = {}, but it must be {must_be}", number_in_words(*value))]
 pub struct QuantityError {
     /// Name of the quantity, as in files and flags.
     pub name: &'static str,

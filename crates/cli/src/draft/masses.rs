@@ -165,7 +165,7 @@ mod tests {
             (&["0.413", "a.mov", "0,462kg", "b.mov"], "--mass 0,462kg: the decimal sign is a point"),
             (&["413=a.mov"], "413g"),
             (&["-0.4=a.mov"], "is not a mass"),
-            (&["0.0005=a.mov"], "mass_kg = 0.0005, and it must be from 0.001"),
+            (&["0.0005=a.mov"], "mass_kg = 0.0005, but it must be from 0.001"),
             (&["0.4=a.mov", "experiment.toml"], "counts as a recording"),
         ] {
             let what = loads(words).unwrap_err();

@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn what_is_not_settled_is_no_part_of_the_mean() {
-        assert_eq!(told(&[(Listening, 20)]), "no speed: 2.0 s of sound are too short; hear 3 s or more\n");
+        assert_eq!(told(&[(Listening, 20)]), "no speed: 2.0 s of sound are too short: 3 s or more are needed\n");
         let none =
             "no speed was clear in 3.0 s; for 2.0 s several speeds were possible; if this is a rotor, give --rotors\n";
         assert_eq!(told(&[(Listening, 10), (Ambiguous, 20)]), none);

@@ -103,7 +103,8 @@ fn stated_uncertainties_that_are_too_large_are_named_where_the_law_cannot_be_tes
     // the ± of the constant is larger than the constant
     let said = with(10.0, 3);
     assert!(
-        said.contains("too uncertain to test F = C_f ω²") && said.contains("or thrust_std_n is too large"),
+        said.contains("too uncertain to test F = C_f ω²")
+            && said.contains("check whether the uncertainties in thrust_std_n are too large"),
         "{said}"
     );
     assert!(said.contains("the uncertainties that you stated"), "{said}");
@@ -135,7 +136,7 @@ fn stated_uncertainties_beyond_all_measure_are_refused_by_their_row() {
         .collect();
     fs::write(&table, format!("rpm,thrust_g,thrust_std_g\n{rows}")).unwrap();
     let said = hovertone(&["fit", text(&table)]).ends_with(3);
-    assert!(said.stderr.contains("; or thrust_std_g is too small"), "{}", said.stderr);
+    assert!(said.stderr.contains("; or the uncertainties in thrust_std_g are too small"), "{}", said.stderr);
     assert!(!said.stdout.contains("too alike"), "{}", said.stdout);
     let line = said.stderr.lines().find(|line| line.contains("do not fit")).unwrap_or_default();
     let named: Vec<u32> = line

@@ -293,7 +293,7 @@ fn four_rotors_check_no_clock() {
             run.stderr
         );
         assert!(
-            run.stderr.contains("record one rotor that runs alone, at a steady throttle; about "),
+            run.stderr.contains("record one rotor that runs alone, at a steady throttle; the heard speed is about "),
             "{}",
             run.stderr
         );

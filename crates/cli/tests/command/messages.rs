@@ -181,7 +181,7 @@ fn names_of_loads_cannot_move_the_cursor() {
 #[test]
 fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
     for (arguments, said) in [
-        ("speed a.wav --mass-kg -1", "error: mass_kg = -1, and it must be from 0.001 to 10000 (hint: "),
+        ("speed a.wav --mass-kg -1", "error: mass_kg = -1, but it must be from 0.001 to 10000 (hint: "),
         ("speed a.wav --blades -1", "error: --blades -1: must be a whole number from 1 to 20 (hint: "),
         ("speed a.wav --rotors -1", "error: --rotors -1: must be a whole number, 1 or more (hint: "),
         ("speed a.wav --harmonics -1", "error: --harmonics -1: must be a whole number, 1 or more (hint: "),
@@ -238,32 +238,32 @@ fn a_number_out_of_range_is_told_in_one_form() {
     let scenario = write("s.toml", "duration_s = -1.0\n");
     let weigh = "weigh a.wav --vehicle ardrone --constant-n-s2";
     for (arguments, said) in [
-        (format!("{weigh} -1"), "constant_n_s2 = -1, and it must be a number above 0"),
-        (format!("{weigh} 2.83e-5 --constant-std-n-s2 nan"), "constant_std_n_s2 = NaN, and it must be 0 or more"),
-        (format!("{weigh} 2.83e-5 --latitude-deg 95"), "latitude_deg = 95, and it must be from -90 to 90"),
-        (format!("{weigh} 2.83e-5 --gravity-m-s2 8"), "gravity_m_s2 = 8, and it must be from 9.7 to 9.9, because"),
-        ("fit a.csv --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
-        ("fit --plan --mass-kg 1 --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
-        ("speed a.wav --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
-        ("speed a.wav --blades 2 --from nan".to_owned(), "--from = NaN, and it must be 0 or more"),
+        (format!("{weigh} -1"), "constant_n_s2 = -1, but it must be a number above 0"),
+        (format!("{weigh} 2.83e-5 --constant-std-n-s2 nan"), "constant_std_n_s2 = NaN, but it must be 0 or more"),
+        (format!("{weigh} 2.83e-5 --latitude-deg 95"), "latitude_deg = 95, but it must be from -90 to 90"),
+        (format!("{weigh} 2.83e-5 --gravity-m-s2 8"), "gravity_m_s2 = 8, but it must be from 9.7 to 9.9, because"),
+        ("fit a.csv --diameter-m 254".to_owned(), "diameter_m = 254, but it must be from 0.01 to 10"),
+        ("fit --plan --mass-kg 1 --diameter-m 254".to_owned(), "diameter_m = 254, but it must be from 0.01 to 10"),
+        ("speed a.wav --diameter-m 254".to_owned(), "diameter_m = 254, but it must be from 0.01 to 10"),
+        ("speed a.wav --blades 2 --from nan".to_owned(), "--from = NaN, but it must be 0 or more"),
         (
             "init --vehicle ardrone --diameter-m 254 --mass 1=a.wav".to_owned(),
-            "diameter_m = 254, and it must be from 0.01 to 10",
+            "diameter_m = 254, but it must be from 0.01 to 10",
         ),
         (
             "calibrate a.wav --blades 2 --tachometer-rpm 1".to_owned(),
-            "tachometer_rpm = 1, and it must be from 60 to 90000",
+            "tachometer_rpm = 1, but it must be from 60 to 90000",
         ),
         (
             "calibrate a.wav --blades 2 --tachometer-rpm 3600 --clock-ppm -1".to_owned(),
-            "clock_ppm = -1, and it must be from 0 to 1000000",
+            "clock_ppm = -1, but it must be from 0 to 1000000",
         ),
-        (format!("export {results} --to gazebo --hover-command 2"), "hover_command = 2, and it must be from 0 to 1"),
-        (format!("export {results} --to gazebo --diameter-m 254"), "diameter_m = 254, and it must be from 0.01 to 10"),
-        (format!("identify {far}"), "vehicle.latitude_deg = 95, and it must be from -90 to 90"),
-        (format!("identify {light}"), "vehicle.gravity_m_s2 = 8, and it must be from 9.7 to 9.9, because no place"),
-        (format!("identify {large}"), "vehicle.propeller_diameter_m = 254, and it must be from 0.01 to 10"),
-        (format!("simulate {scenario}"), "duration_s = -1, and it must be above 0"),
+        (format!("export {results} --to gazebo --hover-command 2"), "hover_command = 2, but it must be from 0 to 1"),
+        (format!("export {results} --to gazebo --diameter-m 254"), "diameter_m = 254, but it must be from 0.01 to 10"),
+        (format!("identify {far}"), "vehicle.latitude_deg = 95, but it must be from -90 to 90"),
+        (format!("identify {light}"), "vehicle.gravity_m_s2 = 8, but it must be from 9.7 to 9.9, because no place"),
+        (format!("identify {large}"), "vehicle.propeller_diameter_m = 254, but it must be from 0.01 to 10"),
+        (format!("simulate {scenario}"), "duration_s = -1, but it must be above 0"),
     ] {
         let run = hovertone(&arguments.split(' ').collect::<Vec<_>>()).ends_with(2);
         let all = lines(&run);

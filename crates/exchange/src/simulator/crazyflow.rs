@@ -54,7 +54,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         [] => return Err(incomplete("no vehicle in it has the key rpm2thrust".to_owned())),
         _ => {
             let count = vehicles.len();
-            return Err(incomplete(format!("{count} vehicles in it have the key rpm2thrust, and it must be one")));
+            return Err(incomplete(format!("{count} vehicles in it have the key rpm2thrust, but it must be one")));
         }
     };
     let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));

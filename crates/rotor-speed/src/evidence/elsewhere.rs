@@ -51,10 +51,9 @@ pub(super) fn better_elsewhere(
     let any = &wanted.where_unknown;
     let searched_rev_s = &wanted.propellers.first()?.speeds_rev_s;
     let own = any.iter().find(|propeller| propeller.lines == first.lines);
-    let rarest = any.iter().map(|propeller| propeller.share).fold(1.0, f64::min);
-    let prior_nats =
-        |share: f64, speed_rev_s: f64| share.ln() + nats_of_vehicle(speed_rev_s, &KnownRotor::default(), config);
-    let own_prior_nats = prior_nats(own.map_or(rarest, |own| own.share), first.hover_rev_s);
+    // how common a number of blades is tells nothing about one that was counted
+    let prior_nats = |speed_rev_s: f64| nats_of_vehicle(speed_rev_s, &KnownRotor::default(), config);
+    let own_prior_nats = prior_nats(first.hover_rev_s);
 
     // facts about the vehicle may have outweighed the lines
     let KnownRotor { diameter_m, mass_kg, shaft_speed, .. } = wanted.known;
@@ -75,7 +74,7 @@ pub(super) fn better_elsewhere(
             let is_possible = propeller.speeds_rev_s.contains(&speed_rev_s) && speed_rev_s >= RESOLVED_REV_S;
             if is_possible && !is_compared(speed_rev_s) && (over == 1 || over != under) {
                 let more_nats = short.nats(&propeller.lines, ratio) - own_nats;
-                if more_nats + prior_nats(propeller.share, speed_rev_s) > own_prior_nats {
+                if more_nats + prior_nats(speed_rev_s) > own_prior_nats {
                     better.push((more_nats, propeller, ratio));
                 }
             }
@@ -88,11 +87,11 @@ pub(super) fn better_elsewhere(
     let speeds_rev_s = path_in_long_frames(looks, &first.speeds_rev_s, &VoteTable::of(&first.lines))?;
     let mut long = PathInLook { look: &looks.long, speeds_rev_s, model: long };
     let own_nats = long.nats(&first.lines, 1.0);
-    // the mean of the looks, as of all hypotheses, with how common such a rotor is
+    // the mean of the looks, as of all hypotheses, with how common such a speed is
     let odds = better.into_iter().filter_map(|(short_nats, propeller, ratio)| {
         let speed_rev_s = ratio * first.hover_rev_s;
         let levels_nats = 0.5 * (short_nats + long.nats(&propeller.lines, ratio) - own_nats);
-        let nats = levels_nats + prior_nats(propeller.share, speed_rev_s) - own_prior_nats;
+        let nats = levels_nats + prior_nats(speed_rev_s) - own_prior_nats;
         Some((nats, OtherRotor { blades: propeller.lines.blades?, speed_rev_s }))
     });
     let far_better = odds.filter(|(nats, _)| *nats >= odds_nats(config.belief_min));

@@ -65,7 +65,7 @@ fn a_recording_has_one_row_however_its_name_is_spelled() {
     batch_in(folder.path(), &["a"], "").ends_with(0);
     for same in ["a/", "./a", "a/../a", text(&archive)] {
         let run = batch_in(folder.path(), &[same], "").ends_with(0);
-        assert!(run.stdout.contains("heard in this run: 0"), "{same}: {}", run.stdout);
+        assert!(run.stdout.contains("worked on in this run: 0"), "{same}: {}", run.stdout);
         assert_eq!(texts(&table(&out), "file"), files, "{same}");
     }
     let run = batch_in(folder.path(), &["a/flight 0"], "");
