@@ -94,7 +94,7 @@ fn hint_of(error: &LogError) -> String {
         LogError::NoSuchSignal { name, tables, .. } => nearest(name, tables.split(", ")),
         _ => None,
     };
-    meant.map_or_else(|| error.hint().to_owned(), |meant| format!("the most similar name is {meant}; {}", error.hint()))
+    meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
 }
 
 /// The flag that names a column, where the command has it.

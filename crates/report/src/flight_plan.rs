@@ -45,7 +45,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
         hover_s => format!("{:.1} minutes", hover_s / 60.0),
     };
     format!(
-        "Plan: {} loads ({} added), {} of each load, {:.0} s of used hover in each recording (without what hovertone cuts): {hover} of used hover in all\n\
+        "Plan: {} loads ({} added), {} of each load, {:.0} s of steady hover in each recording: {hover} of steady hover in all\n\
          Wanted: C_f ± {} % or less (k = 2; change it with --wanted-share). Expected: ± {} %. The largest part of this ± comes from: \
          {}.{advice}\n{intercept}\n",
         plan.load_count,

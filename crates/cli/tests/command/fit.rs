@@ -125,7 +125,10 @@ fn bad_tables_are_refused_or_flagged() {
     }
     // half of the rows are four times too heavy, and nobody knows which half
     let halves = run("rpm,mass_g\n3600,413\n3610,416\n3700,1744\n3710,1755\n").ends_with(3).json_lines().remove(0);
-    assert!(halves["notices"].to_string().contains("which group is right (hint: do not use this constant"), "{halves}");
+    assert!(
+        halves["notices"].to_string().contains("nothing shows which are right (hint: do not use this constant"),
+        "{halves}"
+    );
     let said = hovertone(&["fit", text(&path)]).ends_with(3).stdout;
     assert!(said.contains("\ndo not use this constant: C_f, one rotor = "), "{said}");
     // 300 % too heavy
@@ -187,7 +190,7 @@ fn a_plan_tells_before_flying() {
         hovertone(&arguments)
     };
     let words = plan("0.025", &["--latitude-deg", "-20.3", "--added-mass-kg", "0.1"]).ends_with(0).stdout;
-    for word in ["loads", "recordings of each load", "s of hover", "k = 2", "rotors not separated"] {
+    for word in ["loads", "recordings of each load", "s of steady hover", "k = 2", "rotors not separated"] {
         assert!(words.contains(word), "{words}");
     }
     // the load that it names tests the law

@@ -377,7 +377,9 @@ fn a_law_without_most_of_the_probability_is_not_preferred() {
     let said = hovertone(&["fit", text(&table)]).ends_with(0).stdout;
     assert!(!said.contains("(preferred)"), "{said}");
     assert!(
-        said.contains("no law is clearly the most probable, so none is preferred; C_f belongs to the law F = C ω²"),
+        said.contains(
+            "no law is clearly the most probable, so none is preferred; C_f is the constant of the law F = C ω²"
+        ),
         "{said}"
     );
 }

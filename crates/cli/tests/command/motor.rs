@@ -145,7 +145,7 @@ fn a_log_without_a_time_constant_says_why() {
     let slow = written(folder.path(), "slow.csv", slow.join("\n"));
     let run = hovertone(&["motor", &slow]).ends_with(3);
     assert!(
-        run.stdout.contains("too far apart for a time constant") && run.stdout.contains("speed of each command\n"),
+        run.stdout.contains("too far for a time constant") && run.stdout.contains("speed of each command\n"),
         "{}",
         run.stdout
     );
@@ -208,10 +208,10 @@ fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
     let run = hovertone(&["motor", text(&logs.join("px4_esc_status.ulg"))]).ends_with(3);
     for words in [
         "4 motors",
-        "too far apart for a time constant",
+        "too far for a time constant",
         "speed of each command\n",
         "output 4",
-        "no motor is held at two different commands",
+        "if a motor is not held at two different commands",
     ] {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }

@@ -102,7 +102,10 @@ fn a_standard_uncertainty_is_smaller_than_its_number() {
         (&["--mass-kg", "0.413", "--mass-std-kg", "413"][..], ["mass_std_kg = 413", "for 0.5 g write 0.0005"]),
         (&["--mass-std-kg", "413"], ["mass_std_kg = 413", "give --mass-kg"]),
         (&["--constant-std-n-s2", "1"], ["constant_std_n_s2 = 1", "2.8e-7"]),
-        (&["--constant-std-n-s2", "2e-5"], ["constant_std_n_s2 = 0.00002", "must be less than the constant itself"]),
+        (
+            &["--constant-std-n-s2", "2e-5"],
+            ["constant_std_n_s2 = 0.00002", "must be less than the constant, 0.0000283 N s²"],
+        ),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }

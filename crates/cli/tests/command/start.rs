@@ -132,7 +132,7 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
         &["--mass 9000 g and --mass 400 g: ", "of --mass 9000 g"],
     );
     flags("identify --mass 0.4=a.wav --vehicle ardrone --height-m 40", &["--height-m 40 alone", "--latitude-deg"]);
-    refuses(&["init"], &["only in a terminal", "--mass"]);
+    refuses(&["init"], &["needs a terminal", "--mass"]);
     refuses(&["init", "--vehicle", "ardron", "--mass", "0.4=a.wav"], &["did you mean \"ardrone\""]);
     refuses(&["init", "--blades", "2", "--rotors", "4", "--diameter-m", "254", "--mass", "1=a.wav"], &["in metres"]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written");

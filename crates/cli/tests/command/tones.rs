@@ -100,7 +100,11 @@ fn a_sine_is_one_family_with_its_frequency_to_a_hundredth() {
     }
     write_sine(&path, 44100, 437.31, 0.0);
     let words = hovertone(&["tones", text(&path)]).stdout;
-    assert!(words.contains("single line: 437.31 Hz") && words.contains("if it is a rotor: 2 blades"), "{words}");
+    assert!(
+        words.contains("single line: 437.31 Hz")
+            && words.contains("if it is the tone of a rotor: 218.7 rev/s (2 blades)"),
+        "{words}"
+    );
 }
 
 #[test]
