@@ -135,6 +135,20 @@ fn a_rotor_that_the_settings_leave_out_is_said() {
     }
 }
 
+/// Blades that are alike leave the lines of the blade pass alone, as fewer blades at a higher speed do: such lines contradict no number of blades.
+#[test]
+fn three_or_four_blades_that_are_alike_are_not_contradicted() {
+    for blades in [3.0, 4.0] {
+        let lines: Vec<(f64, f64)> = (1..=8).map(|k| (blades * f64::from(k), 0.05 * 0.75f64.powi(k))).collect();
+        for seed in 0..4 {
+            let analysis = analyse(flight(&lines, seed), &Config { all_methods: false, ..config(blades) });
+            let speed_rev_s = tone(&analysis).speeds[0].speed.rev_s();
+            assert!((speed_rev_s / SPEED_REV_S - 1.0).abs() < 0.01, "{blades}, {seed}: {speed_rev_s}");
+            assert_eq!(left_out(&analysis), None, "{blades}, {seed}");
+        }
+    }
+}
+
 #[test]
 fn noise_holds_no_rotor_whatever_is_known() {
     for seed in 0..8 {

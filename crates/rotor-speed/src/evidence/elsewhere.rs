@@ -38,8 +38,9 @@ impl PathInLook<'_, '_> {
 ///
 /// - `models`: those of the short and of the long look.
 ///
-/// Measured (`docs/decisions/0019-one-evidence.md`): none in 106 real and 96 semi-real cases with the right blades; with 3 or 4 blades in place of 2,
-/// one in most benches. Flights seldom show the lines of the shaft, which tell the blades.
+/// Measured (`docs/decisions/0019-one-evidence.md`): none in 106 real and 96 semi-real cases with the right blades, and none in 24 simulated rotors
+/// with 4 blades that are alike; with 3 or 4 blades in place of 2, one in most benches. Flights seldom show the lines of the shaft, which tell the
+/// blades.
 pub(super) fn better_elsewhere(
     first: &Hypothesis,
     looks: &Looks,
