@@ -254,12 +254,7 @@ impl fmt::Display for Warning {
                 )
             }
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed, spread_share } => {
-                let assumed = if *is_assumed {
-                    format!(" (hovertone assumes {of}, because no number was given)")
-                } else {
-                    String::new()
-                };
-                f.write_str(&not_apart_text(*resolved, &format!("{of} rotors{assumed}"), *has_mean, *spread_share))
+                f.write_str(&not_apart_text(*resolved, &all_rotors_text(*of, *is_assumed), *has_mean, *spread_share))
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
@@ -307,6 +302,12 @@ fn others_heard_text(expected: u32) -> String {
         1 => "one rotor alone is expected, but other rotors are heard too".to_owned(),
         several => format!("{several} rotors are expected, but another rotor is heard beside them"),
     }
+}
+
+/// "4 rotors", and whether their number was given.
+fn all_rotors_text(of: u32, is_assumed: bool) -> String {
+    let assumed = format!(" (hovertone assumes {of}, because no number was given)");
+    format!("{of} rotors{}", if is_assumed { &assumed } else { "" })
 }
 
 /// How many rotors were separated, and what their speed is then. `rotors` are all.

@@ -97,7 +97,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let (of_all, total) = match table.rotor_count {
         1 => (String::new(), String::new()),
         count => (
-            format!("in the table of laws, C_f and F₀ are those of all {count} rotors together\n"),
+            format!("in the table of laws, C_f and F₀ are for all {count} rotors together\n"),
             format!("{doubt}C_f, all {count} rotors = {} ({meaning})\n", quoted(table.thrust_constant_total_n_s2)),
         ),
     };

@@ -93,9 +93,12 @@ pub(crate) fn either_mass_text(names: &[String], masses_that_fit_kg: &[f64]) -> 
     }
 }
 
-/// A probability in percent; one that rounds to 100 is no certainty.
+/// From here on, a probability would be rounded to 100.0 %, which is no certainty. *Decision.*
+const ROUNDED_TO_ONE: f64 = 0.9995;
+
+/// A probability in percent.
 pub(crate) fn probability_text(probability: f64) -> String {
-    if probability < 0.9995 { format!("{:.1} %", 100.0 * probability) } else { "above 99.9 %".to_owned() }
+    if probability < ROUNDED_TO_ONE { format!("{:.1} %", 100.0 * probability) } else { "above 99.9 %".to_owned() }
 }
 
 /// A ratio with two digits.

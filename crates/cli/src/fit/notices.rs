@@ -144,8 +144,8 @@ pub(super) fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_coun
     let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
     let mach = if tip_mach < MACH_WITH_DECIMALS_MAX { fixed(tip_mach, 2) } else { format!("{tip_mach:.0e}") };
     let text = format!(
-        "no propeller has this thrust at this speed: its blade tips would move at Mach {mach} (times the speed of sound) or faster, and those of \
-         multirotors stay below Mach {TIP_MACH_MAX}"
+        "no propeller has this thrust at this speed: its blade tips would move at Mach {mach} (times the speed of sound) or faster, and no multirotor \
+         exceeds Mach {TIP_MACH_MAX}"
     );
     let rotors = match is_count_given {
         true => "and --rotors",

@@ -126,7 +126,7 @@ fn bad_tables_are_refused_or_flagged() {
     // half of the rows are four times too heavy, and nobody knows which half
     let halves = run("rpm,mass_g\n3600,413\n3610,416\n3700,1744\n3710,1755\n").ends_with(3).json_lines().remove(0);
     assert!(
-        halves["notices"].to_string().contains("nothing shows which are right (hint: do not use this constant"),
+        halves["notices"].to_string().contains("nothing shows which group is right (hint: do not use this constant"),
         "{halves}"
     );
     let said = hovertone(&["fit", text(&path)]).ends_with(3).stdout;

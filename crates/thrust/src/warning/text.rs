@@ -56,7 +56,7 @@ impl fmt::Display for ThrustWarning {
                 the other recordings")
             }
             Self::ConstantsSplit => f.write_str(
-                "the constants C_f of the loads or rows form two groups: those of one group are twice those of the other, or more, and nothing shows which are right",
+                "the loads or rows form two groups: C_f of one group is twice C_f of the other, or more, and nothing shows which group is right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
