@@ -11,9 +11,8 @@ use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::settings::{check_tips_heard, config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
-use crate::wording::IN_PICTURE;
 use hovertone_figures::{DOTS_PER_INCH, recording_figure};
-use hovertone_report::SpeedRecord;
+use hovertone_report::{Notice, NoticeKind};
 use hovertone_workflow::trial_of;
 
 /// Analyses a recording and draws it.
@@ -37,9 +36,11 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     };
     let jobs = [Job { name, path, config, discovery, requests: Requests::default(), sha256: None, samples: None }];
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records: Vec<SpeedRecord> =
-        records_of(&jobs, hearing, &progress).into_iter().map(|record| record.worded(IN_PICTURE)).collect();
+    let mut records = records_of(&jobs, hearing, &progress);
     progress.finish();
+    // a picture has no ±
+    let is_about_picture = |notice: &Notice| notice.kind != NoticeKind::LargeUncertainty;
+    records.iter_mut().for_each(|record| record.notices.retain(is_about_picture));
     check_tips_heard(&arguments.known, &records)?;
     let ending = ending_of(&records);
     terminal.counted_notes(&records.iter().collect::<Vec<_>>());

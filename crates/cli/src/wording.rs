@@ -41,12 +41,6 @@ pub(crate) const IN_HOVER: Wording = Wording {
     ])
 };
 
-/// Behind `spectrogram`, which prints no speed.
-pub(crate) const IN_PICTURE: Wording = Wording::of_phrases(&[(
-    "the speed is the mean of all rotors, and its ± includes that not all were separated; ",
-    "",
-)]);
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,7 +109,7 @@ mod tests {
 
     /// A reader of `demo` wrote no experiment file and cannot move a microphone: the advice says first that the constant is right.
     #[test]
-    fn in_an_experiment_the_constant_comes_first_and_a_picture_has_no_speed() {
+    fn in_an_experiment_the_constant_comes_first() {
         let apart = |has_mean: bool| Warning::RotorsNotApart {
             resolved: 0,
             of: 4,
@@ -130,8 +124,6 @@ mod tests {
             let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());
             assert!(worded.starts_with(begins), "{worded}");
         }
-        let drawn = IN_PICTURE.of(apart(true).hint());
-        assert!(drawn.starts_with("if fewer rotors turn, give their number with --rotors;"), "{drawn}");
         assert!(!Wording::IN_FLIGHT.of(apart(true).hint()).contains("on a bench"));
         let in_file = Wording::IN_EXPERIMENT.of(apart(true).hint());
         assert!(

@@ -31,6 +31,8 @@ pub enum NoticeKind {
     CannotHover,
     /// No rotor has a name, although names were asked for.
     NoNames,
+    /// The ± of the speed is large, and the answer is the same.
+    LargeUncertainty,
 }
 
 impl NoticeKind {

@@ -116,6 +116,9 @@ pub fn hear(
     let of_analysis = of_analysis.into_iter().zip(hints).map(|(warning, hint)| {
         let kind = match warning {
             Warning::FitsElsewhere(_) => NoticeKind::AnotherRotorFits,
+            Warning::RotorsNotApart { .. } | Warning::RotorCountUnknown { .. } | Warning::FewFrames { .. } => {
+                NoticeKind::LargeUncertainty
+            }
             _ => NoticeKind::Other,
         };
         Notice::new(warning.to_string(), hint).of_kind(kind)
