@@ -138,7 +138,7 @@ impl FlownLog {
             control_from_log(open_stream(path, THE_LOG)?, names, axes).map_err(|error| log_failure(&error, path))?;
         let refused = |what: &str| {
             let hint = "`hovertone greybox --help` lists the columns that are needed; `hovertone log FILE --signals` lists the columns of a log";
-            Failure::Usage { what: what.to_owned(), hint: hint.to_owned(), path: Some(path.to_owned()) }
+            Failure::failed(what, hint, path)
         };
         let beyond = control.command.iter().flatten().flatten().find(|command| command.abs() > 1.0 + 1e-9);
         if let Some(command) = beyond {
@@ -273,26 +273,25 @@ pub(crate) fn fit_of(
             }
             _ => stop.to_string(),
         };
+        let of_sound = files.recording.is_some();
         let hint = match stop {
-            GreyBoxStop::NotConverged => {
-                "check --vehicle and --log-axes; if both are right, fly doublets (the stick to one side, then to the \
-                 other) for a minute, in roll, pitch, yaw and climb"
+            GreyBoxStop::NotConverged => format!("check --vehicle and --log-axes; if both are right, {FLY_DOUBLETS}"),
+            GreyBoxStop::TooShort { .. } if of_sound => {
+                format!(
+                    "{FLY_DOUBLETS}, and record the whole flight; or give the log alone, if it has the speeds of the rotors"
+                )
             }
-            GreyBoxStop::TooShort { .. } if files.recording.is_some() => {
-                "fly doublets (the stick to one side, then to the other) for longer, in roll, pitch, yaw and climb, and record the whole flight; or give the log alone, if it has the speeds of the rotors"
-            }
-            GreyBoxStop::TooShort { .. } => {
-                "log the speeds more often, or fly doublets (the stick to one side, then to the other) for longer, in roll, pitch, yaw and climb"
-            }
-            GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
-                "check that the log belongs to this recording; if the clocks of the two differ, give --log-offset-s; \
-                 fly doublets (the stick to one side, then to the other) for a minute"
-            }
-            _ => {
-                "fly doublets (the stick to one side, then to the other) for a minute, in roll, pitch, yaw and climb; log the commands and the angles"
-            }
+            GreyBoxStop::TooShort { .. } => format!("log the speeds more often, or {FLY_DOUBLETS}"),
+            GreyBoxStop::TooFew { .. } if of_sound => format!(
+                "check that the log belongs to this recording; if the clocks of the two differ, give --log-offset-s; if both are right, {FLY_DOUBLETS}"
+            ),
+            _ => format!("{FLY_DOUBLETS}; log the commands and the angles"),
         };
-        Failure::Usage { what, hint: hint.to_owned(), path: Some(files.log.clone()) }
+        match stop {
+            // a flag may be wrong
+            GreyBoxStop::NotConverged => Failure::Usage { what, hint, path: Some(files.log.clone()) },
+            _ => Failure::failed(what, hint, &files.log),
+        }
     };
     match &files.recording {
         None => {

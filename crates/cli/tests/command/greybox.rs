@@ -115,10 +115,7 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let turning = format!("{head},speed_1_rad_s,speed_2_rad_s,speed_3_rad_s,speed_4_rad_s");
     let few = (0..30).map(|row| format!("\n0.{row:02},0,0,300,300,300,300")).collect::<String>();
     let few = log("few.csv", &(turning.clone() + &few));
-    refused_with(
-        &["greybox", &few, "--vehicle", "ardrone"],
-        &["the flight has too few speeds, 29 in 0.3 s: at this rate, a fit needs a flight of 2 s or longer"],
-    );
+    lacks(&few, &["the flight has too few speeds, 29 in 0.3 s: at this rate, a fit needs a flight of 2 s or longer"]);
     // neither commands nor speeds that never change show a model
     let long = |command: fn(u32) -> f64| {
         let row = |row: u32| format!("\n{}.{},{},0,300,300,300,300", row / 10, row % 10, command(row));
