@@ -1,6 +1,7 @@
 //! A warning as text: the problem and the advice.
 
 use crate::wording::Wording;
+use hovertone_analysis::Warning;
 use hovertone_thrust::ThrustWarning;
 use serde::{Serialize, Serializer};
 use std::fmt;
@@ -36,6 +37,17 @@ pub enum NoticeKind {
 }
 
 impl NoticeKind {
+    /// What a warning about a recording is about.
+    pub fn of_warning(warning: &Warning) -> Self {
+        match warning {
+            Warning::FitsElsewhere(_) => Self::AnotherRotorFits,
+            Warning::RotorsNotApart { .. } | Warning::RotorCountUnknown { .. } | Warning::FewFrames { .. } => {
+                Self::LargeUncertainty
+            }
+            _ => Self::Other,
+        }
+    }
+
     /// Whether nobody should use a speed with such a notice.
     pub(crate) fn forbids_use(self) -> bool {
         matches!(self, Self::Impossible | Self::CannotHover)

@@ -113,16 +113,10 @@ pub fn hear(
     let of_analysis: Vec<&Warning> =
         all.iter().filter(|warning| matters(warning) && !warning.is_told_by(all)).collect();
     let hints = record.given_facts().hints(&of_analysis);
-    let of_analysis = of_analysis.into_iter().zip(hints).map(|(warning, hint)| {
-        let kind = match warning {
-            Warning::FitsElsewhere(_) => NoticeKind::AnotherRotorFits,
-            Warning::RotorsNotApart { .. } | Warning::RotorCountUnknown { .. } | Warning::FewFrames { .. } => {
-                NoticeKind::LargeUncertainty
-            }
-            _ => NoticeKind::Other,
-        };
-        Notice::new(warning.to_string(), hint).of_kind(kind)
-    });
+    let of_analysis = of_analysis
+        .into_iter()
+        .zip(hints)
+        .map(|(warning, hint)| Notice::new(warning.to_string(), hint).of_kind(NoticeKind::of_warning(warning)));
     record.notices = notices_of(recording).into_iter().chain(of_analysis).collect();
     record.notices.extend(notice_of_reading(&record).filter(|_| follows_a_tone));
     record.notices.extend(notice_of_one_tone(&record, &config));
