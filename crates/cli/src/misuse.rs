@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::meant::{DECIMAL_SIGN, SHARE_SIGN, flag_meant, number_meant, place_meant, results_meant, with_point};
 use crate::missing::{argument_of_example, missing_in_words};
 use crate::nearest::nearest;
-use crate::see_help::{example_and_help, is_typed, typed_command};
+use crate::see_help::{commands_with, example_and_help, is_typed, typed_command};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
 use hovertone_report::printable;
@@ -166,7 +166,8 @@ impl Misuse {
         }
         if name.starts_with('-') {
             let meant = place_in_experiment(name, words).or_else(|| flag_meant(name, words));
-            let hint = meant.or_else(|| nearest_flag(name, words));
+            let of_other = || Some(format!("this flag belongs to {}", commands_with(name)?));
+            let hint = meant.or_else(of_other).or_else(|| nearest_flag(name, words));
             return Self { what: format!("there is no flag {name}"), hint };
         }
         match words.get(1).and_then(|command| command.to_str()) {
@@ -307,6 +308,10 @@ mod tests {
             (
                 "hovertone calibrate a.wav --true-rpm 3600",
                 "there is no flag --true-rpm (did you mean --tachometer-rpm?)",
+            ),
+            (
+                "hovertone speed a.wav --tachometer-rpm 3600",
+                "there is no flag --tachometer-rpm (this flag belongs to `hovertone calibrate`)",
             ),
             ("hovertone speed a.wav --blade 2", "there is no flag --blade (did you mean --blades?)"),
             ("hovertone weigh a.wav --added 0.1", "there is no flag --added (for example `hovertone weigh "),

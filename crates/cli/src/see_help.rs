@@ -2,6 +2,7 @@
 
 use crate::args::Arguments;
 use clap::{Arg, Command, CommandFactory};
+use hovertone_vehicle::in_list;
 use std::ffi::OsString;
 
 /// The line above the examples of a help.
@@ -45,6 +46,15 @@ pub(crate) fn argument_of<'a>(command: &'a Command, flag: &str) -> Option<&'a Ar
     command
         .get_arguments()
         .find(|argument| argument.get_long().is_some_and(|long| flag.strip_prefix("--") == Some(long)))
+}
+
+/// The commands that have a flag, where they are not more than two.
+pub(crate) fn commands_with(flag: &str) -> Option<String> {
+    let commands = Arguments::command();
+    let has_flag = |command: &&Command| argument_of(command, flag).is_some();
+    let names: Vec<String> = commands.get_subcommands().filter(has_flag).map(|it| it.get_name().to_owned()).collect();
+    let named = || names.iter().map(|name| format!("`hovertone {name}`")).collect::<Vec<_>>();
+    (1..=2).contains(&names.len()).then(|| in_list(&named(), "and"))
 }
 
 /// Whether a flag is among the words, alone or as in --flag=value.

@@ -51,6 +51,15 @@ fn in_unit(unit: PowerOfTen, estimate: Estimate) -> String {
     with_uncertainty(unit.scale(estimate.value), estimate.std_uncertainty.map(|std| unit.scale(std)))
 }
 
+/// A probability in percent. One that would be rounded to 0 or 100 is no certainty.
+fn probability_percent(probability: f64) -> String {
+    match format!("{:.1}", 100.0 * probability).as_str() {
+        "100.0" => "> 99.9".to_owned(),
+        "0.0" => "< 0.1".to_owned(),
+        percent => percent.to_owned(),
+    }
+}
+
 /// The square law and the laws beside it, with their probabilities.
 pub fn laws_table(fit: &SquareLawFit) -> TextTable {
     let unit = PowerOfTen::of([fit.thrust_constant_n_s2.value]);
@@ -65,9 +74,7 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
     let probability = |law: ForceLaw| {
         let known = fit.laws.iter().find(|known| known.law == law);
         // without other laws there is no preference
-        known
-            .filter(|_| fit.laws.len() > 1)
-            .map_or(DASH.to_owned(), |known| format!("{:.1}", 100.0 * known.probability))
+        known.filter(|_| fit.laws.len() > 1).map_or(DASH.to_owned(), |known| probability_percent(known.probability))
     };
     let mut row = |law: ForceLaw, cells: [String; 3]| {
         // forces that are too alike to test the square law do not prefer it

@@ -124,7 +124,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     }
     if let Some(merit) = table.figure_of_merit {
         text += &format!(
-            "figure of merit (ideal power over measured power) at the largest thrust = {}\n",
+            "figure of merit (ideal power over measured power; electrical power includes the losses of motor and ESC) at the largest thrust = {}\n",
             significant(merit, 3)
         );
     }

@@ -118,7 +118,8 @@ impl SpeedRecord {
             format!(" at {:.0} to {:.0} Hz (its frequency at {low:.0} to {high:.0} rev/s)", order * low, order * high)
         });
         let (replaced, given) = (self.given_facts().replaced_by_blades(), self.given_facts().in_words("and"));
-        (order > BLADES_MAX).then(|| {
+        let is_given = self.given_facts().vehicle || self.given_facts().gear || self.given_facts().order;
+        (order > BLADES_MAX && is_given).then(|| {
             format!(
                 "the tone of the gear ({order} times the rotor speed) is not heard{range}; if the rotors have no \
                 gear, give --blades N alone, in place of {replaced}; if they have one, check {given}, or move the \

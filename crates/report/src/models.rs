@@ -102,15 +102,22 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
     let mut words = table_text(&text, width);
     if let Some(expanded) = heard.expanded_uncertainty_n_s2 {
         let percent = 100.0 * expanded / heard.thrust_constant_n_s2;
-        let first = match heard.hover_speed_rad_s {
-            Some(_) => "the speed that was heard",
-            None => "the speed at which its thrust carries the vehicle",
-        };
+        words += &format!("the ± of the measured constant is {percent:.2} % (k = 2)\n");
+    }
+    if let Some(first) = first_speed_in_words(heard) {
         words += &format!(
-            "the ± of the measured constant is {percent:.2} % (k = 2). The last column has, in the first row, {first}; in every other row, the speed at which the measured vehicle would hover with the constant of this row\n"
+            "\"hovers at\": in the first row, {first}; in every other row, the speed at which the measured vehicle would hover with the constant of this row\n"
         );
     }
     words
+}
+
+/// What the speed of the measured constant is; `None` where it has none.
+fn first_speed_in_words(heard: &IdentifiedRotor) -> Option<&'static str> {
+    match heard.hover_speed_rad_s {
+        Some(_) => Some("the speed that was heard"),
+        None => heard.hover_speed_by_balance_rad_s().map(|_| "the speed at which its thrust carries the vehicle"),
+    }
 }
 
 /// A line for the model that an experiment names as its vehicle; empty without a measured constant.

@@ -183,8 +183,10 @@ pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Opt
 pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &CalibrateArguments) -> String {
     let (known, heard) = comparison.pair();
     let order = if comparison.heard.is_rotor { format!(", order {}", comparison.heard.order) } else { String::new() };
-    let mut text =
-        format!("{}: known {known}, heard {heard} (± covers about 95 % of cases, k = 2){order}\n", printable(name));
+    let is_rounded = arguments.known_std_ppm.is_none() && comparison.reference.std_share() > 0.0;
+    let digit = if is_rounded { "; the known number has the ± of its last digit alone" } else { "" };
+    let plus_minus = format!("(±: k = 2, without the clock of the recorder{digit})");
+    let mut text = format!("{}: known {known}, heard {heard}{order} {plus_minus}\n", printable(name));
     text += &order_in_words(comparison, arguments);
     // of a speed that may be another one, no clock is told
     if comparison.agrees() {
@@ -324,8 +326,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         Judgement::Undecided => "; most of the ± comes from the sound: make a longer recording",
         _ => "",
     };
-    let verdict = word(judgement);
-    let limit_ppm = arguments.clock_ppm;
+    let (verdict, limit_ppm) = (word(judgement), arguments.clock_ppm);
     let mut text = format!(
         "clock: {verdict}, {off} (millionths, k = 2); an error of up to {limit_ppm} ppm passes (--clock-ppm){advice}\n"
     );
@@ -340,14 +341,12 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         let is_exact = comparison.reference.std_share() == 0.0;
         let right = if is_exact { "exact (--known-std-ppm gives its uncertainty)" } else { "right within its ±" };
-        let unusual = match whole_ppm.abs() > USUAL_PPM_MAX {
-            true => format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known number first\n"),
-            false => String::new(),
-        };
+        let unusual = format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known number first\n");
+        let unusual = if whole_ppm.abs() > USUAL_PPM_MAX { &unusual } else { "" };
         format!(
             "{unusual}correction of the clock, if the known number is {right}: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
              [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}  # error that may remain: the ± of the correction, and {WARMTH_PPM} or more by the temperature\n",
+             clock_ppm = {}  # error that may remain\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {

@@ -47,7 +47,7 @@ fn signals_of_one_table_come_row_by_row() {
     assert_eq!(rows_of(&["main.motor[1]", "main.eRPM[0]"]).unwrap(), (500, 2));
     assert_eq!(rows_of(&["main", "main.eRPM[0]"]).unwrap(), (500, 18));
     let error = rows_of(&["main.motor[9]"]).unwrap_err();
-    assert!(error.to_string().contains("no signal \"main.motor[9]\"; its tables are: main"), "{error}");
+    assert!(error.to_string().contains("no signal \"main.motor[9]\""), "{error}");
     let bytes = dataflash::flight(1);
     let wanted = ["ESC[0].RPM".to_owned(), "ESC[1].RPM".to_owned()];
     let error = signal_rows(&bytes[..], &ColumnNames::default(), &wanted, |_| Ok(())).unwrap_err();
