@@ -67,6 +67,8 @@ pub struct Verification {
     pub is_offset_told: bool,
     /// Whether limits of the offset were given.
     pub is_offset_given: bool,
+    /// Whether the offset lies at a given limit, and the speeds do not tell it: then it may be any.
+    pub is_offset_at_limit: bool,
     /// An offset outside of the given limits at which the log fits clearly better.
     pub better_offset_s: Option<f64>,
     /// How well the points lie within their ±.
@@ -96,9 +98,11 @@ impl Verification {
     }
 
     /// Whether something shows that the log is of this flight: speeds that change together tell the offset of the clocks, or it was given and
-    /// most points agree. Equal means of steady speeds show nothing, since another flight of the vehicle has them too.
+    /// most points agree. Equal means of steady speeds show nothing, since another flight of the vehicle has them too; nor does an offset at its
+    /// limit, where the next one fits better.
     fn is_of_this_flight(&self) -> bool {
-        self.is_offset_told || self.is_offset_given && self.coverage() >= COVERAGE_OF_HALF
+        let is_given = self.is_offset_given && !self.is_offset_at_limit;
+        self.is_offset_told || is_given && self.coverage() >= COVERAGE_OF_HALF
     }
 
     /// Share of the points of all rotors within their ±.

@@ -180,14 +180,14 @@ impl Warning {
                 "if fewer rotors turn, give their number, as in --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer"
             }
             Self::RotorsNotApart { has_mean: false, .. } => {
-                "to separate them and get a smaller ±, place the microphone nearer, and record without compression; rotors at nearly equal speeds \
+                "to separate them and get a smaller ±, place the microphone nearer; rotors at nearly equal speeds \
                 cannot be separated"
             }
             Self::RotorsNotApart { .. } => {
                 "the speed is the mean of all rotors, and its ± includes that not all were separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
             }
             Self::RotorCountUnknown { .. } => {
-                "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several rotors, leave --method and --mean-only out, and place the microphone nearer"
+                "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several rotors, place the microphone nearer"
             }
             Self::OtherRotorsHeard { .. } => {
                 "if more rotors turn, give their number with --rotors; if not, record away from other machines"

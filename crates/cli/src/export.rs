@@ -1,6 +1,7 @@
 //! `hovertone export`: the model of a simulator with the constant, new or changed in place.
 
 use crate::args::ExportArguments;
+use crate::caller::typed_words;
 use crate::failure::{Ending, Failure};
 use crate::identify::names_loads;
 use crate::inputs::{is_stdin, read_text};
@@ -303,10 +304,12 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
 fn refuse_number(path: &Path) -> Result<(), Failure> {
     let number = path.to_str().filter(|text| text.parse::<f64>().is_ok() && !path.exists());
     number.map_or(Ok(()), |number| {
-        let hint = format!(
-            "give the results.json that `hovertone identify` wrote; only `hovertone weigh` takes a number, the \
-             constant of the whole vehicle: --constant-n-s2 {number}"
-        );
+        let whole = format!("the constant of the whole vehicle: --constant-n-s2 {number}");
+        let is_weigh = typed_words().get(1).is_some_and(|word| word == "weigh");
+        let hint = match is_weigh {
+            true => format!("give the number as {whole}, and also --vehicle or --blades; or give the results.json of `hovertone identify`"),
+            false => format!("give the results.json that `hovertone identify` wrote; only `hovertone weigh` takes a number, {whole}"),
+        };
         Err(Failure::usage(format!("{number} is a number, but the file results.json is needed here"), hint))
     })
 }

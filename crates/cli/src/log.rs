@@ -87,6 +87,9 @@ pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
 /// What to do, with the table of which the name was meant.
 fn hint_of(error: &LogError) -> String {
     if let LogError::NoTime { columns } = error {
+        if is_of_stand(columns) {
+            return "a table of speeds and thrusts without times is no log: give it to `hovertone fit`".to_owned();
+        }
         return format!("{}{}{}", error.hint(), flag_of_columns(), example_of_columns(columns));
     }
     let meant = match error {
@@ -95,6 +98,13 @@ fn hint_of(error: &LogError) -> String {
         _ => None,
     };
     meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
+}
+
+/// Whether the columns are those of a thrust stand: a force or a mass, and no time.
+fn is_of_stand(columns: &str) -> bool {
+    let columns = columns.to_lowercase();
+    let is_any = |names: &[&str]| names.iter().any(|name| columns.contains(name));
+    is_any(&["thrust", "force", "mass_"]) && is_any(&SPEEDS) && !is_any(&TIMES)
 }
 
 /// The flag that names a column, where the command has it.

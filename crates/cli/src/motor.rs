@@ -193,7 +193,9 @@ impl Plan<'_> {
         let what = format!(
             "with --offset {given_s}, commands and speed do not change at the same times, so the commands are not used"
         );
-        let hint = format!("leave --offset out, or give --offset {other_s:.2}: then they change at the same times");
+        let hint = format!(
+            "check the offset; without --offset, hovertone uses {other_s:.2} s, because then they change at the same times, and tells no dead time"
+        );
         Some(Notice::new(what, hint))
     }
 }

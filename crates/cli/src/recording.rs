@@ -151,10 +151,7 @@ fn guess_in_words(meaning: Meaning) -> Option<Notice> {
     let what = format!(
         "the number of blades is not given: the speeds are for propellers with {blades} blades, because the sound suggests this number"
     );
-    Some(Notice::new(
-        what,
-        "count the blades and give --blades N; the time constants do not depend on the number of blades",
-    ))
+    Some(Notice::new(what, "count the blades and give --blades N"))
 }
 
 /// A rotor that the settings leave out, and that fits the sound far better.

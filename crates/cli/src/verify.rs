@@ -12,6 +12,7 @@ use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::{config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
 use crate::which_speed::which_is_right;
+use crate::wording::IN_VERIFY;
 use hovertone::rotors::{LoggedSpeeds, NotVerified, Verification, verification_of_heard};
 use hovertone::speed::TrackPoint;
 use hovertone_figures::{DOTS_PER_INCH, verification_figure};
@@ -44,7 +45,8 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
         return Err(without_speeds(log));
     };
     let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
-    let records = records_of(&jobs, Hearing::of(&arguments.hearing), &progress);
+    let heard = records_of(&jobs, Hearing::of(&arguments.hearing), &progress).into_iter();
+    let records: Vec<SpeedRecord> = heard.map(|record| record.worded(IN_VERIFY)).collect();
     progress.finish();
     let Some(record) = records.first() else { return Err(Failure::internal("a recording without a record")) };
     if let Some(reason) = record.reason().filter(|_| record.has_failed()) {

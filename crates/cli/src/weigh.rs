@@ -48,6 +48,7 @@ struct Plan {
 
 /// What stands in place of a mass where no recording has a speed.
 const NO_MASS: &str = "no mass: no speed was heard\n";
+const SEVERAL_MASSES: &str = "no mass: several speeds are possible\n";
 
 /// What stands above a mass that no one should use.
 const DOUBTFUL_MASS: &str = "do not use this mass: the warnings say that the sound does not fit the rotors with which the constant was measured\n";
@@ -118,7 +119,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     } else {
         let said =
             |weighed: &WeighedHover| format!("{}{}", doubt.unwrap_or_default(), weighed_text(weighed, plan.model_kg));
-        terminal.text(&weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), said))?;
+        let none = if records.iter().any(SpeedRecord::is_ambiguous) { SEVERAL_MASSES } else { NO_MASS };
+        terminal.text(&weighed.as_ref().map_or_else(|| none.to_owned(), said))?;
     }
     Ok(ending_of(&records).max(if doubt.is_some() { Ending::Incomplete } else { Ending::Done }))
 }

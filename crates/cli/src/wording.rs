@@ -41,6 +41,12 @@ pub(crate) const IN_HOVER: Wording = Wording {
     ])
 };
 
+/// Behind `verify`, which compares the speeds of each moment: those of single rotors, or their mean.
+pub(crate) const IN_VERIFY: Wording = Wording::of_phrases(&[(
+    "the speed is the mean of all rotors, and its ± includes that not all were separated; ",
+    "to compare the mean of all rotors alone, add --mean-only; ",
+)]);
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -135,6 +135,7 @@ mod tests {
             offset_s: 0.0,
             is_offset_told: true,
             is_offset_given: false,
+            is_offset_at_limit: false,
             better_offset_s: None,
             agreement: Agreement::AsStated,
             clock_rate_share: None,

@@ -36,7 +36,7 @@ impl TimeLine {
         if self.first_s.is_none() {
             (self.first_s, self.lowest_s, self.highest_s) = (Some(time_s), time_s, time_s);
         }
-        if let Some(step_s) = self.last_s.map(|last_s| time_s - last_s).filter(|step_s| *step_s > 0.0) {
+        if let Some(step_s) = self.last_s.map(|last_s| time_s - last_s).filter(|step_s| *step_s >= 0.0) {
             self.step_count += 1;
             self.step_sum_s += step_s;
         }
@@ -58,9 +58,9 @@ impl TimeLine {
         self.first_s.map(|_| [self.lowest_s, self.highest_s])
     }
 
-    /// Rows per second: 1 over the mean step.
+    /// Rows per second: 1 over the mean step. Rows with the time of the row before count too.
     pub(crate) fn rate_hz(&self) -> Option<f64> {
-        (self.step_count > 0).then(|| self.step_count as f64 / self.step_sum_s)
+        (self.step_sum_s > 0.0).then(|| self.step_count as f64 / self.step_sum_s)
     }
 }
 
@@ -94,5 +94,8 @@ mod tests {
         assert_eq!((TimeLine::default().span_s(), TimeLine::default().rate_hz()), (None, None));
         let one = self::line(&[2.0]);
         assert_eq!((one.span_s(), one.rate_hz()), (Some([2.0, 2.0]), None));
+        let repeated = self::line(&[0.0, 0.0, 0.1, 0.1, 0.2, 0.2, 0.3]);
+        assert!((repeated.rate_hz().unwrap() - 20.0).abs() < 1e-9);
+        assert_eq!(self::line(&[1.0, 1.0, 1.0]).rate_hz(), None);
     }
 }

@@ -25,7 +25,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
             let added_g = (1e3 * wish.vehicle_mass_kg * (ratio - 1.0)).ceil();
             let [ratio, range] = compared([ratio, range]);
             format!(
-                "To test the law F = C_f ω², the vehicle with the heaviest load must weigh {ratio} times the vehicle alone. In this plan it weighs {range} times.\n\
+                "If the speeds scatter as this plan assumes, a test of the law F = C_f ω² needs a heaviest flight of {ratio} times the mass of the vehicle alone. In this plan it is {range} times.\n\
                  If the vehicle can carry {added_g} g, plan with --added-mass-kg {}.",
                 added_g / 1e3
             )

@@ -143,7 +143,7 @@ pub(crate) fn trust(record: &GreyBoxRecord) -> String {
         return "the numbers may be wrong by more than their ±: the warnings name the reason".to_owned();
     }
     if !record.fit.information.correlations.is_empty() {
-        return "the ± may be too small, because some of these numbers have nearly the same effect in this flight: the last line names them".to_owned();
+        return "the ± may be too small, because some of these numbers (named below) have nearly the same effect in this flight".to_owned();
     }
     if record.length_s < TESTED_S {
         return format!(
@@ -252,7 +252,7 @@ fn gains_table(record: &GreyBoxRecord) -> TextTable {
     ]);
     for axis in Axis::ALL {
         for (name, parameter, per) in [
-            ("k_p", Parameter::Proportional(axis), axis.unit().to_owned()),
+            ("k_p", Parameter::Proportional(axis), in_brackets(axis.unit())),
             ("k_d", Parameter::Derivative(axis), format!("({}/s)", axis.unit())),
         ] {
             let told = record.fit.estimate(parameter);
@@ -267,6 +267,11 @@ fn gains_table(record: &GreyBoxRecord) -> TextTable {
         }
     }
     shown
+}
+
+/// A unit behind "per": a quotient stands in brackets.
+fn in_brackets(unit: &str) -> String {
+    if unit.contains('/') { format!("({unit})") } else { unit.to_owned() }
 }
 
 fn shown_estimate(estimate: Estimate) -> String {

@@ -27,23 +27,14 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     if first.model.is_too_slow {
         text += "the rows of this log are more than 100 ms apart: this is too far for a time constant; log the speeds every 20 ms or faster\n";
     } else if !has_steps {
-        text += match record.source {
-            MotorSource::Log => {
-                "no step: the speed never changes from one steady value to another; log a bench run whose command steps, and hold each level for a \
-                 second or longer\n"
-            }
-            MotorSource::Sound(_) => {
-                "no step is heard: the tone that is followed never changes from one steady value to another; record a bench run whose command \
-                 steps, and hold each level for a second or longer\n"
-            }
-        };
+        text += &no_step_in_words(&record.source);
     }
     if let MotorSource::Sound(sound) = &record.source
-        && let Some(number) = sound.given_number().filter(|_| !record.has_time_constant())
+        && let Some(number) = sound.given_number().filter(|_| has_steps && !record.has_time_constant())
     {
         text += &format!(
-            "if a step is missing: does the part that is heard hold it, and is {number} right? With a wrong number, hovertone may \
-            follow another tone\n"
+            "if a step is missing, check {number}, because with a wrong number hovertone may follow another tone; check also that the part \
+            that is heard contains the step\n"
         );
     }
     if has_steps {
@@ -176,6 +167,22 @@ fn verdict_in_words(verdict: StepVerdict, source: &MotorSource) -> &'static str 
         StepVerdict::AtRest => "left out: the motor starts or stops",
         StepVerdict::OtherCurve => "left out: not an exponential approach to the new speed",
         StepVerdict::Uncertain => "left out: too uncertain",
+    }
+}
+
+/// That no step is found, and what to do. With a wrong number of blades, the tone that is followed may be another one.
+fn no_step_in_words(source: &MotorSource) -> String {
+    let held = "a bench run whose command steps, and hold each level for a second or longer";
+    match source {
+        MotorSource::Log => format!("no step: the speed never changes from one steady value to another; log {held}\n"),
+        MotorSource::Sound(sound) => match sound.given_number() {
+            Some(number) => format!(
+                "no step is heard: check {number}, because with a wrong number hovertone may follow another tone; if it is right, record {held}\n"
+            ),
+            None => format!(
+                "no step is heard: the followed tone never changes from one steady value to another; record {held}\n"
+            ),
+        },
     }
 }
 

@@ -22,7 +22,7 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
                 "\nspeed of each command: not known, because the commands are not used\n".to_owned()
             }
             MotorSource::Sound(_) => {
-                "\nspeed of each command: not known without the commands (give --commands LOG)\n".to_owned()
+                "\nspeed of each command: not known without the commands (--commands LOG)\n".to_owned()
             }
         };
     }
@@ -34,7 +34,7 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
         text += "if a motor is not held at two different commands, its gain comes from all log rows. There the speed lags behind the command, so the true \
-        gain is larger than this one, by more than the ±. For a better gain, hold at least two commands for a second each\n";
+        gain is larger than this one, perhaps by more than the ±. For a better gain, hold at least two commands for a second each\n";
     }
     let offsets = || maps().filter(|map| map.gain_rev_s.is_some()).filter_map(|map| map.offset_rev_s);
     if offsets().any(|offset_rev_s| offset_rev_s >= 0.0) {

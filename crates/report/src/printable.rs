@@ -58,6 +58,12 @@ pub fn folded(text: &str, width: Option<usize>) -> String {
     text.split('\n').map(of_line).collect::<Vec<_>>().join("\n")
 }
 
+/// The folder of a name, with its last separator; empty without one.
+pub(crate) fn folder_of(name: &str) -> &str {
+    let end = name.rmatch_indices(std::path::is_separator).next().map(|(index, separator)| index + separator.len());
+    end.and_then(|end| name.get(..end)).unwrap_or("")
+}
+
 /// The folder that all names share, with its last separator; empty where they share none, or for a single name.
 pub fn shared_folder<'a>(names: &[&'a str]) -> &'a str {
     let [first, others @ ..] = names else { return "" };

@@ -52,7 +52,11 @@ impl Verdict {
             return Self::Untested(format!("not tested: {why}"));
         }
         match misfits.as_slice() {
-            [] => Self::Holds(format!("every load agrees with the others{agreement}")),
+            [] => {
+                let differ = table.warnings.iter().find(|it| matches!(it, ThrustWarning::TrialsDiffer { .. }));
+                let but = differ.map_or(String::new(), |differ| format!("; but {differ}"));
+                Self::Holds(format!("every load agrees with the others{agreement}{but}"))
+            }
             all if all.len() > 1 && all.len() == heard => {
                 Self::Fails(format!("the loads do not fit each other: {}{agreement}", all.join(", ")))
             }

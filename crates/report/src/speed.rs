@@ -4,7 +4,7 @@ use crate::cuts::used_in_words;
 use crate::names::rotor_name;
 use crate::notice::Notice;
 use crate::number::{DASH, expanded, plus_minus, rounded, significant, spread};
-use crate::printable::{printable, shared_folder};
+use crate::printable::{folder_of, printable, shared_folder};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
@@ -24,10 +24,16 @@ const DIGITS_OF_READINGS: usize = 4;
 /// Readings below this plausibility are counted and not shown.
 const SHOWN_MIN: f64 = 0.01;
 
+/// Characters of the name of a single file, from which its folder stands below the table.
+const LONG_NAME: usize = 30;
+
 /// The speeds of all recordings, one row each. The folder that all files share stands below the table.
 pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
     let files: Vec<&str> = records.iter().map(|record| record.file.as_str()).collect();
-    let folder = shared_folder(&files);
+    let folder = match files.as_slice() {
+        [one] if one.chars().count() > LONG_NAME => folder_of(one),
+        _ => shared_folder(&files),
+    };
     let name = |record: &SpeedRecord| record.file.strip_prefix(folder).unwrap_or(&record.file).to_owned();
     let mut table = TextTable::new(vec![
         Column::words("file"),
@@ -72,7 +78,11 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
             None => table.push_words(name(record), record.missing_speed_label().to_owned()),
         }
     }
-    let below = if folder.is_empty() { String::new() } else { format!("files in {}\n", printable(folder)) };
+    let below = if folder.is_empty() {
+        String::new()
+    } else {
+        format!("{} in {}\n", if files.len() == 1 { "file" } else { "files" }, printable(folder))
+    };
     table_text(&table, width) + &below
 }
 

@@ -80,7 +80,12 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     };
     text += &format!("{verdict}\n");
     if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
-        text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(family, width));
+        let (place, table) = (kind_and_place("rotor", family), readings_table(family, width));
+        // several possible speeds may belong to other series than the one that is seen best
+        text += &match record.is_ambiguous() {
+            true => format!("\n{table}\n{place}\n"),
+            false => format!("\n{place}\n{table}"),
+        };
     }
     let others = found.families.iter().enumerate().filter(|(index, _)| rotor != Some(*index));
     for (_, family) in others {

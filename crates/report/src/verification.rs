@@ -223,6 +223,8 @@ enum Undecided {
     OffsetOutside(f64),
     /// Too few logged speeds lie within the ± of the heard ones.
     FewWithin,
+    /// The offset lies at a limit that was given, and the speeds do not tell it.
+    OffsetAtLimit,
     /// The speeds are too steady to show the offset of the log, or the heard ones do not follow quick changes.
     UnknownOffset,
 }
@@ -235,6 +237,7 @@ fn undecided(found: &Verification) -> Option<Undecided> {
     let is_clock_known = found.is_offset_told || found.is_offset_given;
     Some(match found.better_offset_s {
         Some(offset_s) => Undecided::OffsetOutside(offset_s),
+        None if found.is_offset_at_limit => Undecided::OffsetAtLimit,
         None if is_clock_known || found.agreement == Agreement::Scattered => Undecided::FewWithin,
         None => Undecided::UnknownOffset,
     })
@@ -257,6 +260,12 @@ impl Undecided {
             Self::FewWithin => Notice::new(
                 format!("{means} {few}"),
                 "check first that the log is of this flight, and then the offset of the log; if both are right, do not rely on the ± of the speed at a single moment",
+            ),
+            Self::OffsetAtLimit => Notice::new(
+                format!(
+                    "{means} the offset of the log lies at a limit of --log-offset-s, so the log may be of another flight"
+                ),
+                "check that the log is of this flight; if it is, give other limits, at most 2 s apart",
             ),
             Self::UnknownOffset => {
                 let also = if found.coverage() < COVERAGE_OF_HALF { format!(". Also, {few}") } else { String::new() };
@@ -357,6 +366,7 @@ mod tests {
             offset_s: 0.0,
             is_offset_told: true,
             is_offset_given: false,
+            is_offset_at_limit: false,
             better_offset_s: None,
             agreement,
             clock_rate_share: None,

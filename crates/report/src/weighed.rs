@@ -113,6 +113,9 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
             format!("payload: not known, because the mass of the vehicle alone is not given ({give})\n")
         }
     };
+    if weighed.mass_kg.std_uncertainty.is_some() {
+        text += "the ± includes the ± of the constant, of the heard speeds, of gravity, and of the mass of the vehicle where it is given\n";
+    }
     text
 }
 

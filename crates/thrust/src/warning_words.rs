@@ -53,8 +53,8 @@ pub(crate) fn range_text(range: &LoadRange) -> String {
     };
     let [ratio, needed] = compared([range.force_ratio, needed]);
     format!(
-        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, but must be {needed} \
-        times the smallest or more"
+        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, but with speeds as uncertain \
+        as these, it must be {needed} times or more"
     )
 }
 

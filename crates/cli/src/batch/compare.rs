@@ -21,6 +21,7 @@ const RUN_AGAIN: &str =
 
 /// Compares two folders of results.
 pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    refuse_same(&arguments.earlier, &arguments.later)?;
     let (earlier, later) = (Results::read(&arguments.earlier)?, Results::read(&arguments.later)?);
     if let Some(notice) = earlier.other_settings(&later, [&arguments.earlier, &arguments.later]) {
         terminal.warning(&notice, "");
@@ -41,6 +42,20 @@ pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) ->
         return Ok(Ending::Incomplete);
     }
     Ok(Ending::Done)
+}
+
+/// Refuses a folder that is compared with itself.
+fn refuse_same(earlier: &Path, later: &Path) -> Result<(), Failure> {
+    match (earlier.canonicalize(), later.canonicalize()) {
+        (Ok(one), Ok(other)) if one == other => {
+            let what = format!(
+                "{} is given twice: a folder does not differ from itself",
+                printable(&later.display().to_string())
+            );
+            Err(Failure::usage(what, "give the folder of the earlier batch, and that of the later one"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The results of a batch, with names of recordings below the folder that was heard.

@@ -9,7 +9,7 @@ use std::path::Path;
 const GRAMS: f64 = 1e3;
 const HINT: &str = "write the mass, in g or kg, before its recordings: --mass 413g=hover.mov, or --mass 0.413=hover.mov, or --mass 413g a.mov b.mov";
 /// Behind a mass that says itself what to write.
-const EXAMPLE: &str = "for example --mass 413g=hover.mov";
+const EXAMPLE: &str = "for example --mass 413g hover.mov";
 
 /// One load: a mass as flown and its recordings.
 #[derive(Clone, Debug, PartialEq)]

@@ -85,8 +85,11 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
             }
             terminal.flush()?;
             terminal.warning_count_of(table.notices.len(), (!is_alone).then(|| table.name()).as_deref());
-            for notice in &table.notices {
-                terminal.warning(notice, "");
+            let hints = table.notices.iter().skip(1).map(|next| next.hint.as_str()).chain([""]);
+            for (notice, next_hint) in table.notices.iter().zip(hints) {
+                // one advice for several stands below the last of them
+                let hint = if notice.hint == next_hint { "" } else { &notice.hint };
+                terminal.warning(&Notice { hint: hint.to_owned(), ..notice.clone() }, "");
             }
             terminal.text(&fitted_table_text(&table, terminal.fold_width()))?;
         }

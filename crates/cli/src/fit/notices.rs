@@ -73,7 +73,7 @@ pub(super) fn notice_of(
             let (percent, size) = (fixed(100.0 * share.abs(), 1), if *share < 0.0 { "small" } else { "large" });
             let hint = format!(
                 "{zero}simulators use F = C_f ω². Its largest error is at {name} of the table: there, its force is {percent} % too {size}. If this is too \
-                 much, use the preferred law"
+                 much, fit only the rows near the speeds that you need"
             );
             Notice::new(warning.to_string(), hint)
         }

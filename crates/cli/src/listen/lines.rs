@@ -8,8 +8,10 @@ use hovertone_workflow::{LiveLine, live_remark, live_status_in_words, live_words
 
 /// Live speeds of one second, of which a line of text tells the last.
 const SPEEDS_PER_LINE: usize = 10;
+/// Levels below this are those of no microphone: the sound is a row of zeros.
+const SILENCE_DB: f64 = -150.0;
 /// Names of the columns, above the first line.
-const HEAD: &str = "      time       level  mean speed of the rotors (±: k = 2; level 0 dB: the loudest tone that a recording can hold)\n";
+const HEAD: &str = "      time       level  mean speed of the rotors (±: k = 2; level 0 dB: full scale)\n";
 
 /// One line of JSON.
 pub(crate) fn json_line(speed: &LiveSpeed, listener: &Listener) -> Result<String, Failure> {
@@ -53,8 +55,11 @@ impl PlainLines {
             words.iter().filter(|words| !words.is_empty()).map(String::as_str).collect::<Vec<_>>().join(separator);
         let clipping = if speed.clipped_share > 0.0 { ", too loud" } else { "" };
         let head = if self.count == SPEEDS_PER_LINE { HEAD } else { "" };
-        let level_db = fixed(speed.level_db, 1);
-        let line = format!("{:8.1} s  {level_db:>7} dB{clipping}  {words}\n", speed.time_s);
+        let level = match speed.level_db < SILENCE_DB {
+            true => "silence".to_owned(),
+            false => format!("{} dB", fixed(speed.level_db, 1)),
+        };
+        let line = format!("{:8.1} s  {level:>10}{clipping}  {words}\n", speed.time_s);
         Some(format!("{head}{line}"))
     }
 }

@@ -31,7 +31,7 @@ impl NotVerified {
     pub fn hint(self) -> &'static str {
         match self {
             Self::NoTrack => {
-                "a rotor must be followed for some seconds: `hovertone speed FILE --track track.csv` shows when it is"
+                "record for longer, or choose a longer part with --from and --to: a rotor must be heard for some seconds without a gap"
             }
             Self::TooFewMotors { .. } => "give the log of the same vehicle, or the number of rotors with --rotors",
             Self::NoOverlap => "give the log of the same flight, at least half as long as the hover",

@@ -119,6 +119,9 @@ fn verification_from_log(
         is_offset_told,
         // wide limits tell no offset
         is_offset_given: offsets_s.is_some_and(|[low_s, high_s]| high_s - low_s <= GIVEN_S_MAX),
+        is_offset_at_limit: !is_offset_told
+            && !is_calm_as_good
+            && offsets_s.is_some_and(|limits| limits.contains(&offset_s)),
         better_offset_s,
         agreement: agreement_of(&rotors),
         clock_rate_share: comparison.clock_rate_share(offset_s),

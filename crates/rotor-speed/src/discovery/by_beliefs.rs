@@ -140,7 +140,7 @@ fn readings_of(beliefs: &Beliefs, discovery: &Discovery) -> Vec<Reading> {
                 let speed = RotorSpeed::from_tone_hz(octave * tone_hz, order);
                 let other = Reading {
                     plausibility: 0.5 * share * config.deceived_share,
-                    why: "possible only if the strengths mislead; --blades decides".to_owned(),
+                    why: "its lines hardly fit".to_owned(),
                     ..reading_at(speed, order, Meaning::BladePass { blades })
                 };
                 match readings.iter_mut().find(|reading| is_like(reading, &other)) {

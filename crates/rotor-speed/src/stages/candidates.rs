@@ -142,9 +142,9 @@ pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, meaning: Meaning
 /// How well the strengths of the lines fit a speed.
 fn fit_in_words(belief: f64) -> &'static str {
     match belief {
-        well if well >= 0.5 => "the strengths of its lines fit this speed well",
-        fair if fair >= 0.1 => "the strengths of its lines fit this speed",
-        _ => "the strengths of its lines fit this speed badly",
+        well if well >= 0.5 => "of the possible speeds, its lines fit best",
+        fair if fair >= 0.1 => "its lines fit less well",
+        _ => "its lines hardly fit",
     }
 }
 

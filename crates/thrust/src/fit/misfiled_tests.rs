@@ -155,6 +155,12 @@ fn a_needed_range_is_printed_above_the_range_of_the_loads() {
         })
         .to_string()
     };
-    assert!(said(1.1186, 1.14).ends_with("is 1.12 times the smallest, but must be 1.14 times the smallest or more"));
-    assert!(said(1.1186, 1.12).ends_with("is 1.119 times the smallest, but must be 1.120 times the smallest or more"));
+    assert!(
+        said(1.1186, 1.14).ends_with(
+            "is 1.12 times the smallest, but with speeds as uncertain as these, it must be 1.14 times or more"
+        )
+    );
+    assert!(said(1.1186, 1.12).ends_with(
+        "is 1.119 times the smallest, but with speeds as uncertain as these, it must be 1.120 times or more"
+    ));
 }

@@ -82,7 +82,7 @@ impl ThrustWarning {
                 "do not use this constant: check the masses and which recording belongs to which load, then record each load five times"
             }
             Self::LoudestRotor => {
-                "with rotor speeds 1 to 2 % apart, C_f can be off by 2 to 4 %, and the ± includes this error; to separate the rotors, place the microphone nearer, and do not choose the methods maximum_trace and gaussian"
+                "with rotor speeds 1 to 2 % apart, C_f can be off by 2 to 4 %, and the ± includes this error; to separate the rotors, place the microphone nearer (the methods maximum_trace and gaussian never separate them)"
             }
         }
     }
