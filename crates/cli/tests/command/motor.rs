@@ -250,7 +250,7 @@ fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
     // what was given and is not used is missing
     let shifted = hovertone(&shifted).ends_with(3);
     assert!(!shifted.stdout.contains("saturated"), "{}", shifted.stdout);
-    assert!(shifted.stderr.contains("or give --offset 0.0"), "{}", shifted.stderr);
+    assert!(shifted.stderr.contains("check the offset; without --offset, hovertone uses 0.0"), "{}", shifted.stderr);
     let other =
         written(scratch.path(), "other.csv", "time_s,motor1_pwm\n0,1200\n1,1200\n2,1300\n3,1300\n4,1200\n5,1250\n");
     let other = hovertone(&["motor", &wav, "--blades", "2", "--commands", &other]).ends_with(3);

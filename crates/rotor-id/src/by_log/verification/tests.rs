@@ -118,6 +118,20 @@ fn a_log_of_another_flight_with_the_same_mean_does_not_pass() {
     assert_eq!((found.agreement, found.passes()), (Agreement::Scattered, false));
 }
 
+/// Nothing shows an offset at a limit: the log may be of another flight, though most points agree.
+#[test]
+fn an_offset_at_its_limit_does_not_pass() {
+    let heard = |offset_at_limit: bool| Verification {
+        is_offset_told: false,
+        is_offset_given: true,
+        is_offset_at_limit: offset_at_limit,
+        better_offset_s: None,
+        agreement: Agreement::PlusMinusTooSmall,
+        ..verified(1.0, 0.0)
+    };
+    assert!(heard(false).passes() && !heard(true).passes());
+}
+
 /// A log that never changes: the offset at which it covers the calm part of the recording fits best, and tells nothing.
 #[test]
 fn a_steady_log_has_no_offset() {
