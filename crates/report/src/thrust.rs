@@ -156,5 +156,16 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method, width: Option<us
             significant(both.density_kg_m3, 4),
         )
     });
-    table_text(&methods_table(tables, reported), width) + &coefficients
+    table_text(&methods_table(tables, reported), width) + methods_note(tables, reported) + &coefficients
+}
+
+/// Why methods beside the reported one have a larger ±; empty where they have not.
+fn methods_note(tables: &[ThrustTable], reported: Method) -> &'static str {
+    let hears_rotors = |table: &ThrustTable| table.rotors_heard.separated + table.rotors_heard.group > 0;
+    let is_reported = |table: &&ThrustTable| table.method == reported && table.rotor_count > 1 && hears_rotors(table);
+    let follows_one = |table: &ThrustTable| table.method != reported && !hears_rotors(table);
+    match tables.iter().any(|table| is_reported(&table)) && tables.iter().any(follows_one) {
+        true => "the other methods follow one tone, which may come from one rotor alone: their ± includes this\n",
+        false => "",
+    }
 }

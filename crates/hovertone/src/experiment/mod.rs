@@ -309,7 +309,7 @@ pub enum ExperimentError {
         hint: &'static str,
     },
     /// A number out of range.
-    #[error("{name} = {value}, and it {must_be}")]
+    #[error("{name} = {value}, but it {must_be}")]
     OutOfRange {
         /// Name of the number, with the name of its load.
         name: String,

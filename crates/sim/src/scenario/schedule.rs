@@ -272,7 +272,7 @@ mod tests {
         assert!(refused(Maneuver::TakeOff { height_m: 1.0, duration_s: 1.0 }, false).contains("already flies"));
         assert!(refused(Maneuver::Hover { duration_s: 0.0 }, false).contains("hover duration_s"));
         let step = Maneuver::Step { axis: Axis::Roll, amount: 1.5, duration_s: 1.0 };
-        assert!(refused(step, false).contains("amount = 1.5, and it "));
+        assert!(refused(step, false).contains("amount = 1.5, but it "));
         assert!(refused(Maneuver::Csv { file: "d.csv".to_owned(), duration_s: None }, false).contains("d.csv"));
     }
 }
