@@ -289,7 +289,7 @@ fn a_recording_heard_with_the_wrong_blades_asks_to_check_them() {
         run.stdout
     );
     assert!(!run.stdout.contains("the log has"), "{}", run.stdout);
-    assert!(run.stdout.contains("is --blades 4 right?"), "{}", run.stdout);
+    assert!(run.stdout.contains("if a step is missing, check --blades 4,"), "{}", run.stdout);
     let run = told(&["--blades", "3", "--rotors", "1"]).ends_with(3);
     for words in
         ["no step is heard: check --blades 3, because with a wrong number", "if it is right, record a bench run"]
@@ -297,7 +297,7 @@ fn a_recording_heard_with_the_wrong_blades_asks_to_check_them() {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
     let run = told(&["--order", "1"]).ends_with(3);
-    assert!(run.stdout.contains("is --order 1 right?"), "{}", run.stdout);
+    assert!(run.stdout.contains("check --order 1,"), "{}", run.stdout);
     let run = told(&["--blades", "2", "--rotors", "1"]).ends_with(0);
     assert!(!run.stdout.contains("with a wrong number"), "{}", run.stdout);
 }

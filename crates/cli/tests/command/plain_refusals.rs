@@ -90,7 +90,7 @@ fn a_mass_in_grams_is_asked_about() {
     let words = ["vehicle.mass_kg = 413 (did you mean 0.413?)", "weighs 0.413 kg"];
     refused_with(&["identify", text(&experiment)], &words);
     let flags = ["identify", "--vehicle", "ardrone", "--mass", "413=a.wav"];
-    refused_with(&flags, &["413 without a unit is 413 kg", "did you mean 413g?", "--mass 413g=hover.mov"]);
+    refused_with(&flags, &["413 without a unit is 413 kg", "did you mean 413g?", "for example --mass 413g hover.mov"]);
 }
 
 /// A table that cannot be fitted still says what was done to its rows.

@@ -24,10 +24,14 @@ fn a_recording_is_drawn_with_its_bands_and_its_ridge() {
     let speed = RotorSpeed::from_rev_s(60.0);
     write_hover(&wav, steady_hover("ardrone", speed, 4.0));
     let drawn = hovertone(&["spectrogram", "--order", "69", text(&wav), "-o", text(&svg)]).ends_with(0);
-    // a speed would have a large ±, and a picture has none
     assert!(!drawn.stderr.contains('±'), "{}", drawn.stderr);
-    let told = hovertone(&["speed", "--order", "69", text(&wav)]).ends_with(0).stderr;
-    assert!(told.contains("So the ± is larger") || told.contains("only their mean speed"), "{told}");
+    // the speed of rotors that are not separated has a large ±, and a picture has none
+    let told = hovertone(&["speed", "--vehicle", "ardrone", text(&wav)]).ends_with(0).stderr;
+    assert!(told.contains("could not be separated"), "{told}");
+    let other = folder.path().join("other.svg");
+    let of_vehicle = ["spectrogram", "--vehicle", "ardrone", text(&wav), "-o", text(&other)];
+    let drawn = hovertone(&of_vehicle).ends_with(0).stderr;
+    assert!(!drawn.contains("separated"), "{drawn}");
     hovertone(&["spectrogram", "--order", "69", text(&wav), "-o", text(&png), "--dpi", "150"]).ends_with(0);
     let drawing = fs::read_to_string(&svg).unwrap();
     let panels = axes(&drawing);
