@@ -35,7 +35,7 @@ fn a_log_is_listed_for_people_and_for_programs() {
         hovertone(&["log", &log, "--signal", name, "-o", text(&out), "--force"]).ends_with(0);
     }
     let stand = written(folder.path(), "stand.csv", "throttle_percent,rpm,thrust_g\n10,3000,120\n20,4000,220\n");
-    let of_stand = hovertone(&["log", &stand]).ends_with(1).stderr;
+    let of_stand = hovertone(&["log", &stand]).ends_with(2).stderr;
     assert!(of_stand.contains("without times is no log: give it to `hovertone fit`"), "{of_stand}");
     refused_with(
         &["log", &log, "--signal", "rotor1_rpm", "-o", text(&out), "--force"],
