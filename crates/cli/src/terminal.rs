@@ -25,8 +25,6 @@ struct Label {
     colour: &'static str,
 }
 
-/// Smallest width that `COLUMNS` can ask for.
-const WIDTH_MIN: usize = 20;
 /// Width of the output without a terminal.
 const WIDTH_WITHOUT_TERMINAL: usize = 100;
 
@@ -36,7 +34,7 @@ pub(crate) struct Terminal<'a> {
     err: Box<dyn Write + 'a>,
     /// Whether this is the output of the process, which may be a terminal.
     is_of_process: bool,
-    /// Columns of the terminal behind stderr, else those of `COLUMNS`; absent without both, when lines stay whole for programs.
+    /// Columns of the terminal behind stderr; absent without a terminal, when lines stay whole for programs.
     err_width: Option<usize>,
 }
 
@@ -47,7 +45,7 @@ impl<'a> Terminal<'a> {
             out: Box::new(BufWriter::new(io::stdout())),
             err: Box::new(AutoStream::auto(io::stderr())),
             is_of_process: true,
-            err_width: width_of(&io::stderr()).or_else(wanted_width),
+            err_width: width_of(&io::stderr()),
         }
     }
 
@@ -57,9 +55,9 @@ impl<'a> Terminal<'a> {
         Self { out: Box::new(data), err, is_of_process: false, err_width: None }
     }
 
-    /// Columns that tables fold to: those of the terminal, else those of `COLUMNS`. `None` without both: then lines stay whole for programs.
+    /// Columns that tables fold to; `None` where the output is no terminal, and lines stay whole for programs.
     pub(crate) fn fold_width(&self) -> Option<usize> {
-        if self.is_of_process { width_of(&io::stdout()).or_else(wanted_width) } else { None }
+        if self.is_of_process { width_of(&io::stdout()) } else { None }
     }
 
     /// Width of the output in columns.
@@ -227,11 +225,6 @@ impl<'a> Terminal<'a> {
 pub(crate) fn width_of(stream: &impl IsTerminal) -> Option<usize> {
     let size = stream.is_terminal().then(terminal_size::terminal_size).flatten();
     size.map(|(width, _)| usize::from(width.0))
-}
-
-/// Columns that the variable `COLUMNS` of the environment asks for. Shells do not pass theirs on: who exports it wants lines of this width.
-fn wanted_width() -> Option<usize> {
-    std::env::var("COLUMNS").ok()?.trim().parse().ok().filter(|width| *width >= WIDTH_MIN)
 }
 
 fn stdout_failure(error: io::Error) -> Failure {

@@ -37,7 +37,7 @@ pub(crate) fn hovertone(arguments: &[&str]) -> Run {
 /// Runs `hovertone` in an environment of its own.
 pub(crate) fn hovertone_with(arguments: &[&str], set_up: impl FnOnce(&mut Command) -> &mut Command) -> Run {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hovertone"));
-    let output = set_up(command.args(arguments).env_remove("COLUMNS")).output().unwrap();
+    let output = set_up(command.args(arguments)).output().unwrap();
     Run {
         code: output.status.code().unwrap_or(-1),
         stdout: String::from_utf8(output.stdout).unwrap(),

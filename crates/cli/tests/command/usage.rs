@@ -167,18 +167,3 @@ fn one_vehicle_is_shown_by_its_name() {
         words.iter().for_each(|words| assert!(run.stderr.contains(words), "{}", run.stderr));
     }
 }
-
-/// Without a terminal, lines stay whole for programs, unless `COLUMNS` asks for a width.
-#[test]
-fn columns_of_the_environment_fold_tables_and_messages() {
-    let lines = |columns: &str, words: &[&str]| -> Vec<usize> {
-        let run = hovertone_with(words, |command| command.env("COLUMNS", columns));
-        (run.stdout + &run.stderr).lines().map(|line| line.chars().count()).collect()
-    };
-    for words in [&["vehicles"][..], &["speed", "--vehicle", "no-such-drone", "a.wav"]] {
-        assert!(lines("60", words).iter().all(|length| *length <= 60), "{words:?}");
-        for unusable in ["", "0", "wide"] {
-            assert!(lines(unusable, words).iter().any(|length| *length > 80), "{words:?}");
-        }
-    }
-}
