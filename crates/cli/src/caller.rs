@@ -41,6 +41,11 @@ pub(crate) fn typed_words() -> Vec<OsString> {
         .unwrap_or_else(|| std::env::args_os().collect())
 }
 
+/// The command of the command line, such as "weigh"; empty without one.
+pub(crate) fn command_word() -> String {
+    typed_words().get(1).and_then(|word| word.to_str().map(str::to_owned)).unwrap_or_default()
+}
+
 /// Who wants to be told the progress of the call on this thread.
 pub(crate) fn on_progress() -> Option<OnProgress> {
     CALLER.with_borrow(|caller| caller.as_ref()?.on_progress.clone())

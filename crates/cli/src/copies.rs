@@ -3,36 +3,29 @@
 use crate::failure::Failure;
 use crate::files::sha256_of_file;
 use crate::recording::Job;
-use hovertone_report::Notice;
+use hovertone_report::{Notice, counted};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// Names of the recordings that are among those behind a constant. A file that cannot be read is left to the analysis, which says why.
-fn recordings_behind<'a>(jobs: &'a mut [Job], behind_sha256: &[String]) -> Vec<&'a str> {
-    let is_behind = |job: &mut &'a mut Job| {
-        let sha256 = job.sha256.clone().or_else(|| sha256_of_file(&job.path).ok());
-        job.sha256.clone_from(&sha256);
-        sha256.is_some_and(|sha256| behind_sha256.contains(&sha256))
-    };
-    jobs.iter_mut().filter_map(|mut job| is_behind(&mut job).then_some(job.name.as_str())).collect()
-}
-
 /// The tip that recordings with which the constant was measured show no mass that was not put into it. Only where the results name their recordings,
-/// files are read for it.
+/// files are read for it; their hashes stay with the jobs. A file that cannot be read is left to the analysis, which says why.
 pub(crate) fn tip_of_circle(jobs: &mut [Job], behind_sha256: &[String]) -> Option<Notice> {
     if behind_sha256.is_empty() {
         return None;
     }
-    let behind = recordings_behind(jobs, behind_sha256);
+    for job in jobs.iter_mut().filter(|job| job.sha256.is_none()) {
+        job.sha256 = sha256_of_file(&job.path).ok();
+    }
+    let is_behind = |job: &&Job| job.sha256.as_ref().is_some_and(|sha256| behind_sha256.contains(sha256));
+    let behind: Vec<&str> = jobs.iter().filter(is_behind).map(|job| job.name.as_str()).collect();
     let (first, others) = behind.split_first()?;
-    let names = match others.len() {
-        0 => (*first).to_owned(),
-        1 => format!("{first} and 1 other recording"),
-        others => format!("{first} and {others} other recordings"),
+    let others = match others.len() {
+        0 => String::new(),
+        count => format!(" and {}", counted(count, "other recording")),
     };
     Some(Notice::new(
-        format!("the constant was measured with {names}, so this mass is no independent result"),
+        format!("the constant was measured with {first}{others}, so this mass is no independent result"),
         "to test the constant, weigh a flight that `hovertone identify` did not use",
     ))
 }

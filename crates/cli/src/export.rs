@@ -1,7 +1,7 @@
 //! `hovertone export`: the model of a simulator with the constant, new or changed in place.
 
 use crate::args::ExportArguments;
-use crate::caller::typed_words;
+use crate::caller::command_word;
 use crate::failure::{Ending, Failure};
 use crate::identify::names_loads;
 use crate::inputs::{is_stdin, read_text};
@@ -305,10 +305,9 @@ fn refuse_number(path: &Path) -> Result<(), Failure> {
     let number = path.to_str().filter(|text| text.parse::<f64>().is_ok() && !path.exists());
     number.map_or(Ok(()), |number| {
         let whole = format!("the constant of the whole vehicle: --constant-n-s2 {number}");
-        let is_weigh = typed_words().get(1).is_some_and(|word| word == "weigh");
-        let hint = match is_weigh {
-            true => format!("give the number as {whole}, and also --vehicle or --blades; or give the results.json of `hovertone identify`"),
-            false => format!("give the results.json that `hovertone identify` wrote; only `hovertone weigh` takes a number, {whole}"),
+        let hint = match command_word().as_str() {
+            "weigh" => format!("give the number as {whole}, and also --vehicle or --blades; or give the results.json of `hovertone identify`"),
+            _ => format!("give the results.json that `hovertone identify` wrote; only `hovertone weigh` takes a number, {whole}"),
         };
         Err(Failure::usage(format!("{number} is a number, but the file results.json is needed here"), hint))
     })

@@ -1,7 +1,7 @@
 //! `hovertone log`: what a log holds, and its signals as CSV.
 
 use crate::args::{ColumnName, LogArguments};
-use crate::caller::typed_words;
+use crate::caller::command_word;
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, open_stream};
@@ -114,10 +114,6 @@ fn flag_of_columns() -> &'static str {
     } else {
         ""
     }
-}
-
-fn command_word() -> String {
-    typed_words().get(1).and_then(|word| word.to_str().map(str::to_owned)).unwrap_or_default()
 }
 
 /// Beginnings of headers of a time, in some languages.

@@ -13,10 +13,7 @@ const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     ),
     ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
-    (
-        "the speed is the mean of all rotors, and its ± includes that not all were separated",
-        "C_f uses the mean speed of all rotors, and its ± includes that not all were separated",
-    ),
+    ("the speed is the mean of all rotors", "C_f uses the mean speed of all rotors"),
     OTHER_ROTORS_IN_FLIGHT,
     ("under [samples] in the experiment file", "under [samples] in DIR/experiment.toml, which -o DIR writes"),
     ("--mass-kg", "--mass"),
@@ -33,10 +30,7 @@ const OTHER_ROTORS_IN_FLIGHT: (&str, &str) =
 pub(crate) const IN_HOVER: Wording = Wording {
     is_flight: true,
     ..Wording::of_phrases(&[
-        (
-            "the speed is the mean of all rotors, and its ± includes that not all were separated",
-            "the mass comes from the mean speed of all rotors, and its ± includes that not all were separated",
-        ),
+        ("the speed is the mean of all rotors", "the mass comes from the mean speed of all rotors"),
         OTHER_ROTORS_IN_FLIGHT,
     ])
 };

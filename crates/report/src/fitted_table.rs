@@ -5,6 +5,7 @@ use crate::notice::Notice;
 use crate::number::{PowerOfTen, significant};
 use crate::printable::printable;
 use crate::quote::{counted, quoted};
+use crate::thrust::coefficients_text;
 use crate::version::VERSION;
 use hovertone_thrust::{SquareLawFit, ThrustCoefficients};
 use hovertone_vehicle::Estimate;
@@ -115,12 +116,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
             "this ± does not include calibration errors of the scale and the tachometer, because all rows share them\n";
     }
     if let Some(both) = table.thrust_coefficients {
-        text += &format!(
-            "thrust coefficient C_T of one rotor: {} as for propellers, F/(ρ n² D⁴); {} as for helicopters, F/(ρ A (ωR)²); F is its thrust, n its turns per second, D, R and A its diameter, radius and disk area, and ρ = {} kg/m³ the density of the air\n",
-            significant(both.propeller, 4),
-            significant(both.rotorcraft, 4),
-            significant(both.density_kg_m3, 4)
-        );
+        text += &coefficients_text(both);
     }
     if let Some(merit) = table.figure_of_merit {
         text += &format!(

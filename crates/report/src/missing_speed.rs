@@ -117,8 +117,9 @@ impl SpeedRecord {
         let range = only_rev_s.map_or_else(String::new, |(low, high)| {
             format!(" at {:.0} to {:.0} Hz (its frequency at {low:.0} to {high:.0} rev/s)", order * low, order * high)
         });
-        let (replaced, given) = (self.given_facts().replaced_by_blades(), self.given_facts().in_words("and"));
-        let is_given = self.given_facts().vehicle || self.given_facts().gear || self.given_facts().order;
+        let facts = self.given_facts();
+        let is_given = facts.vehicle || facts.gear || facts.order;
+        let (replaced, given) = (facts.replaced_by_blades(), facts.in_words("and"));
         (order > BLADES_MAX && is_given).then(|| {
             format!(
                 "the tone of the gear ({order} times the rotor speed) is not heard{range}; if the rotors have no \

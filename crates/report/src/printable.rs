@@ -58,10 +58,15 @@ pub fn folded(text: &str, width: Option<usize>) -> String {
     text.split('\n').map(of_line).collect::<Vec<_>>().join("\n")
 }
 
+/// The folders that a name lies in, innermost first, each with its last separator.
+fn folders_of(name: &str) -> impl Iterator<Item = &str> {
+    let ends = name.rmatch_indices(std::path::is_separator).map(|(index, separator)| index + separator.len());
+    ends.filter_map(|end| name.get(..end))
+}
+
 /// The folder of a name, with its last separator; empty without one.
 pub(crate) fn folder_of(name: &str) -> &str {
-    let end = name.rmatch_indices(std::path::is_separator).next().map(|(index, separator)| index + separator.len());
-    end.and_then(|end| name.get(..end)).unwrap_or("")
+    folders_of(name).next().unwrap_or("")
 }
 
 /// The folder that all names share, with its last separator; empty where they share none, or for a single name.
@@ -71,8 +76,7 @@ pub fn shared_folder<'a>(names: &[&'a str]) -> &'a str {
         return "";
     }
     let is_shared = |folder: &&str| others.iter().all(|name| name.starts_with(*folder));
-    let ends = first.rmatch_indices(std::path::is_separator).map(|(index, separator)| index + separator.len());
-    ends.filter_map(|end| first.get(..end)).find(is_shared).unwrap_or("")
+    folders_of(first).find(is_shared).unwrap_or("")
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::units::superscript;
 use hovertone_analysis::Method;
-use hovertone_thrust::{LoadThrust, ThrustTable};
+use hovertone_thrust::{LoadThrust, ThrustCoefficients, ThrustTable};
 use hovertone_vehicle::{Estimate, RotorSpeed};
 
 /// Unit of every thrust constant: newton per (rad/s)².
@@ -148,23 +148,26 @@ pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
 /// The result: the table of the methods, and C_T in both conventions where air and diameter are known.
 pub fn thrust_summary(tables: &[ThrustTable], reported: Method, width: Option<usize>) -> String {
     let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
-    let coefficients = coefficients.map_or(String::new(), |both| {
-        format!(
-            "\nthrust coefficient C_T of one rotor: {} as for propellers, F/(ρ n² D⁴); {} as for helicopters, F/(ρ A (ωR)²); F is its thrust, n its turns per second, D, R and A its diameter, radius and disk area, and ρ = {} kg/m³ the density of the air\n",
-            significant(both.propeller, 4),
-            significant(both.rotorcraft, 4),
-            significant(both.density_kg_m3, 4),
-        )
-    });
+    let coefficients = coefficients.map_or(String::new(), |both| format!("\n{}", coefficients_text(both)));
     table_text(&methods_table(tables, reported), width) + methods_note(tables, reported) + &coefficients
+}
+
+/// The thrust coefficient in both conventions.
+pub(crate) fn coefficients_text(both: ThrustCoefficients) -> String {
+    format!(
+        "thrust coefficient C_T of one rotor: {} as for propellers, F/(ρ n² D⁴); {} as for helicopters, F/(ρ A (ωR)²); F is its thrust, n its turns per second, D, R and A its diameter, radius and disk area, and ρ = {} kg/m³ the density of the air\n",
+        significant(both.propeller, 4),
+        significant(both.rotorcraft, 4),
+        significant(both.density_kg_m3, 4),
+    )
 }
 
 /// Why methods beside the reported one have a larger ±; empty where they have not.
 fn methods_note(tables: &[ThrustTable], reported: Method) -> &'static str {
     let hears_rotors = |table: &ThrustTable| table.rotors_heard.separated + table.rotors_heard.group > 0;
-    let is_reported = |table: &&ThrustTable| table.method == reported && table.rotor_count > 1 && hears_rotors(table);
+    let is_reported = |table: &ThrustTable| table.method == reported && table.rotor_count > 1 && hears_rotors(table);
     let follows_one = |table: &ThrustTable| table.method != reported && !hears_rotors(table);
-    match tables.iter().any(|table| is_reported(&table)) && tables.iter().any(follows_one) {
+    match tables.iter().any(is_reported) && tables.iter().any(follows_one) {
         true => "the other methods follow one tone, which may come from one rotor alone: their ± includes this\n",
         false => "",
     }

@@ -27,10 +27,7 @@ impl Wording {
             ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
             ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
             ("--harmonics 1", "harmonics = 1 under [tone]"),
-            (
-                "the speed is the mean of all rotors, and its ± includes that not all were separated",
-                "C_f uses the mean speed of all rotors, and its ± includes that not all were separated",
-            ),
+            ("the speed is the mean of all rotors", "C_f uses the mean speed of all rotors"),
             (
                 "to separate them and get a smaller ±, ",
                 "the ± of C_f includes this uncertainty; to separate them and get a smaller ±, ",

@@ -1,7 +1,7 @@
 //! How many recordings have a speed, and how many have none and why.
 
 use hovertone_archive::Summary;
-use hovertone_report::SpeedRecord;
+use hovertone_report::{SpeedRecord, counted};
 use serde::Serialize;
 use std::fmt;
 
@@ -101,8 +101,8 @@ impl fmt::Display for Counts {
             write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }
         if self.cut_short > 0 {
-            let (noun, verb) = if self.cut_short == 1 { ("recording", "ends") } else { ("recordings", "end") };
-            write!(f, "; {} {noun} {verb} too early", self.cut_short)?;
+            let verb = if self.cut_short == 1 { "ends" } else { "end" };
+            write!(f, "; {} {verb} too early", counted(self.cut_short, "recording"))?;
         }
         Ok(())
     }

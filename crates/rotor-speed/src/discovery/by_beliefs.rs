@@ -5,7 +5,9 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::pipeline::speed_of_heard_rotor;
-use crate::stages::{HeardRotor, Surveyed, any_propellers, at_ratio, geared_propellers, known_gears, reading_of};
+use crate::stages::{
+    HARDLY_FITS, HeardRotor, Surveyed, any_propellers, at_ratio, geared_propellers, known_gears, reading_of,
+};
 use crate::tone::{BLADES, ToneConfig, normalise, reading_at, rule_out, search_range_rev_s};
 use hovertone_analysis::{Meaning, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily, Warning};
 use hovertone_signal::passes::Passes;
@@ -140,7 +142,7 @@ fn readings_of(beliefs: &Beliefs, discovery: &Discovery) -> Vec<Reading> {
                 let speed = RotorSpeed::from_tone_hz(octave * tone_hz, order);
                 let other = Reading {
                     plausibility: 0.5 * share * config.deceived_share,
-                    why: "its lines hardly fit".to_owned(),
+                    why: HARDLY_FITS.to_owned(),
                     ..reading_at(speed, order, Meaning::BladePass { blades })
                 };
                 match readings.iter_mut().find(|reading| is_like(reading, &other)) {

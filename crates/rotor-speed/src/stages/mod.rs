@@ -13,7 +13,9 @@ mod speeds;
 mod stop;
 mod survey;
 
-pub(crate) use candidates::{Candidates, HeardRotor, at_ratio, beliefs_of, candidates_from_survey, reading_of};
+pub(crate) use candidates::{
+    Candidates, HARDLY_FITS, HeardRotor, at_ratio, beliefs_of, candidates_from_survey, reading_of,
+};
 pub(crate) use decision::{Decision, are_far_apart, decision_from_lines};
 pub(crate) use hover::hover_from_candidate;
 pub(crate) use left_out::heard_instead;
