@@ -20,7 +20,7 @@ fn the_low_level_model_flies_like_the_true_one() {
     let folder = tempfile::tempdir().unwrap();
     let demo = folder.path().join("low");
     let run = hovertone(&["demo", "--low-level", "-o", text(&demo), "--no-progress"]).ends_with(0);
-    for words in ["Eq 1", "k_p", "not used for the fit", "Identified beside the truth", "C_τ of one rotor"] {
+    for words in ["equation 1", "k_p", "not used for the fit", "Identified beside the truth", "C_τ of one rotor"] {
         assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
     }
     let results: Value = serde_json::from_str(&fs::read_to_string(demo.join("results.json")).unwrap()).unwrap();
