@@ -247,8 +247,13 @@ fn simulator_lines(constants: &MotorConstants) -> String {
     if up.is_empty() && down.is_empty() {
         return String::new();
     }
+    let missing = match (up.is_empty(), down.is_empty()) {
+        (true, _) => "no timeConstantUp, because this file has no step to a higher speed that can be used\n",
+        (_, true) => "no timeConstantDown, because this file has no step to a lower speed that can be used\n",
+        _ => "",
+    };
     let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
     format!(
-        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity: the largest speed in this file, without short peaks; the motor may turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
+        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity: the largest speed in this file, without short peaks; the motor may turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n{missing}"
     )
 }

@@ -2,14 +2,12 @@
 
 use crate::failure::Failure;
 use crate::listen::advice::Advice;
+use crate::listen::level::level_in_words;
 use hovertone::live::{Listener, LiveSpeed, LiveStatus, PossibleSpeed};
-use hovertone_report::fixed;
 use hovertone_workflow::{LiveLine, live_remark, live_status_in_words, live_words, possible_speeds_in_words};
 
 /// Live speeds of one second, of which a line of text tells the last.
 const SPEEDS_PER_LINE: usize = 10;
-/// Levels below this are those of no microphone: the sound is a row of zeros.
-const SILENCE_DB: f64 = -150.0;
 /// Names of the columns, above the first line.
 const HEAD: &str = "      time       level  mean speed of the rotors (±: k = 2; level 0 dB: full scale)\n";
 
@@ -55,10 +53,7 @@ impl PlainLines {
             words.iter().filter(|words| !words.is_empty()).map(String::as_str).collect::<Vec<_>>().join(separator);
         let clipping = if speed.clipped_share > 0.0 { ", too loud" } else { "" };
         let head = if self.count == SPEEDS_PER_LINE { HEAD } else { "" };
-        let level = match speed.level_db < SILENCE_DB {
-            true => "silence".to_owned(),
-            false => format!("{} dB", fixed(speed.level_db, 1)),
-        };
+        let level = level_in_words(speed.level_db, 1);
         let line = format!("{:8.1} s  {level:>10}{clipping}  {words}\n", speed.time_s);
         Some(format!("{head}{line}"))
     }

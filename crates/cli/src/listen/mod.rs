@@ -1,6 +1,7 @@
 //! `hovertone listen`: rotor speed of sound as it arrives.
 
 mod advice;
+mod level;
 mod lines;
 #[cfg(feature = "microphone")]
 mod microphone;

@@ -1,5 +1,6 @@
 //! The screen of `listen`: draws a view, and reads the keys.
 
+use super::level::level_in_words;
 use super::view::{STRIP_S, View};
 use crate::failure::Failure;
 use hovertone::live::LiveStatus;
@@ -145,7 +146,7 @@ fn draw_speed(frame: &mut Frame<'_>, area: Rect, view: &View) {
 
 fn draw_level(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let Some(now) = view.now else { return };
-    let after = format!(" {:.0} dB  ", now.level_db).replace('-', "−");
+    let after = format!(" {}  ", level_in_words(now.level_db, 0));
     let clipping = if now.clipped_share > 0.0 { "too loud (clipped): move the microphone away" } else { "" };
     let width = usize::from(area.width).saturating_sub(NAME_WIDTH + after.chars().count() + clipping.len() + 2);
     let share = ((now.level_db - LEVEL_DB_MIN) / -LEVEL_DB_MIN).clamp(0.0, 1.0);

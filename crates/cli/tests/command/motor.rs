@@ -75,6 +75,17 @@ fn steps_of_a_log_tell_the_constants_of_its_motor() {
 }
 
 #[test]
+fn a_time_constant_that_no_step_tells_is_named_below_the_lines_of_the_simulators() {
+    let folder = tempfile::tempdir().unwrap();
+    // up to the end of the first step
+    let rising: String = steps_csv(false).lines().take(300).map(|line| format!("{line}\n")).collect();
+    let log = written(folder.path(), "log.csv", rising);
+    let shown = hovertone(&["motor", &log]).ends_with(0).stdout;
+    assert!(shown.contains("<timeConstantUp>") && !shown.contains("<timeConstantDown>"), "{shown}");
+    assert!(shown.contains("no timeConstantDown, because this file has no step to a lower speed"), "{shown}");
+}
+
+#[test]
 fn the_steps_are_drawn_with_their_curves() {
     let folder = tempfile::tempdir().unwrap();
     let log = written(folder.path(), "log.csv", steps_csv(true));
