@@ -112,7 +112,7 @@ impl fmt::Display for NoTone {
                 "the recording ends at {end_s:.1} s, before the chosen part begins; choose another part with --from and --to"
             ),
             Self::TooShort { heard_s } => {
-                write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; choose a longer part, or record a longer hover")
+                write!(f, "{heard_s:.2} s of sound are too short to hear a rotor: 1 s or more is needed; choose a longer part, or record a longer hover")
             }
             Self::Silence => f.write_str(
                 "the recording is silent; check the microphone. If the file has several audio tracks or channels, choose one with \

@@ -183,6 +183,9 @@ impl Warning {
                 "to separate them and get a smaller ±, place the microphone nearer; rotors at nearly equal speeds \
                 cannot be separated"
             }
+            Self::RotorsNotApart { resolved: 1.., .. } => {
+                "the speed is the mean of the separated rotors, and its ± includes the others; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            }
             Self::RotorsNotApart { .. } => {
                 "the speed is the mean of all rotors, and its ± includes that not all were separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
             }

@@ -8,13 +8,16 @@ use crate::recording::Heard;
 use crate::spin_up::names_of;
 use crate::vehicles::names_in_flight_model;
 use hovertone::rotors::{
-    FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, labels_from_log, labels_from_spin_up,
+    FlightLog, LabelSource, LabelsConfig, LogSignals, MotorSignal, RotorLabels, labels_from_log, labels_from_spin_up,
 };
 use hovertone::speed::TrackPoint;
 use hovertone_logs::{ColumnNames, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
-use hovertone_report::{Notice, SpeedRecord};
+use hovertone_report::{Notice, SpeedRecord, Wording};
 use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle};
 use std::path::Path;
+
+/// Beside signals whose axes no argument gives.
+const WITHOUT_AXES: Wording = Wording::of_phrases(&[(", and check the direction of the axes (--log-axes)", "")]);
 
 /// The meaning of the arguments.
 pub(crate) enum LabelPlan {
@@ -24,6 +27,8 @@ pub(crate) enum LabelPlan {
         logs: Vec<FlightLog>,
         /// Defects of the log.
         notes: Vec<String>,
+        /// Whether the axes of its body rates are those of the arguments: a CSV does not define them.
+        are_axes_said: bool,
         config: LabelsConfig,
     },
     /// Numbers and names in the order of the motors' start.
@@ -63,8 +68,9 @@ pub(crate) fn resolve(
     let config = LabelsConfig { offset_s_low, offset_s_high, ..LabelsConfig::default() };
     config.check()?;
     let notes = std::mem::take(&mut logged.notes);
+    let are_axes_said = logged.rates.as_ref().is_some_and(|rates| rates.axes.is_none());
     let logs = logs_of(logged, arguments, vehicle, path)?;
-    Ok(Some(LabelPlan::Log { logs, notes, config }))
+    Ok(Some(LabelPlan::Log { logs, notes, are_axes_said, config }))
 }
 
 /// The signals of a log in the order of their information: measured speeds, commands, rates of the body.
@@ -74,9 +80,8 @@ fn logs_of(
     vehicle: Option<&Vehicle>,
     path: &Path,
 ) -> Result<Vec<FlightLog>, Failure> {
-    let LoggedFlight { speeds_rev_s: speeds, commands, rates, .. } = logged;
-    let mut logs = logs_of_motors(speeds, commands, path)?;
-    if let Some(LoggedRates { time_s, rates_rad_s: [x, y, z], axes }) = rates {
+    let mut logs = logs_of_motors(&logged, path)?;
+    if let Some(LoggedRates { time_s, rates_rad_s: [x, y, z], axes }) = logged.rates {
         match (axes_of(axes, arguments.log_axes)?, places_of(arguments.layout, vehicle)) {
             (Some(axes), Some(places)) => {
                 let turned = |rates: Vec<f64>| match axes {
@@ -108,18 +113,16 @@ fn logs_of(
     Ok(logs)
 }
 
-/// The speeds and commands of motors in a log, the more informative first.
-pub(crate) fn logs_of_motors(
-    speeds_rev_s: Option<LoggedMotors>,
-    commands: Option<LoggedMotors>,
-    path: &Path,
-) -> Result<Vec<FlightLog>, Failure> {
+/// The speeds and commands of motors in a log, the more informative first. Electrical speeds tell the names as well: a common factor has no effect.
+pub(crate) fn logs_of_motors(logged: &LoggedFlight, path: &Path) -> Result<Vec<FlightLog>, Failure> {
+    let electrical = || logged.electrical.as_ref().map(|electrical| electrical.motors.clone());
+    let speeds_rev_s = logged.speeds_rev_s.clone().or_else(electrical);
     let motors = |logged: LoggedMotors, signal| {
         let LoggedMotors { time_s, names, values } = logged;
         FlightLog::new(time_s, LogSignals::Motors { signal, names, values }).map_err(|error| wrong_log(&error, path))
     };
     let speeds = speeds_rev_s.map(|speeds| motors(in_rad_s(speeds), MotorSignal::Speed)).transpose()?;
-    let commands = commands.map(|commands| motors(commands, MotorSignal::Command)).transpose()?;
+    let commands = logged.commands.clone().map(|commands| motors(commands, MotorSignal::Command)).transpose()?;
     Ok(speeds.into_iter().chain(commands).collect())
 }
 
@@ -185,7 +188,7 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
         return;
     }
     let labels = match plan {
-        LabelPlan::Log { logs, notes, config } => {
+        LabelPlan::Log { logs, notes, config, .. } => {
             record.notices.extend(notes.iter().map(|note| loss_notice(note)));
             labels_of_record(record, heard_with.rotors.count, logs, config)
         }
@@ -193,7 +196,10 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
             .as_ref()
             .map(|spin_up| labels_from_spin_up(spin_up, record.rotors().len(), names, &LabelsConfig::default())),
     };
-    record.notices.extend(labels.as_ref().and_then(notice_of));
+    let notice = labels.as_ref().and_then(notice_of);
+    let is_by_rates = labels.as_ref().is_some_and(|labels| labels.source == LabelSource::BodyRates);
+    let has_axes = is_by_rates && matches!(plan, LabelPlan::Log { are_axes_said: true, .. });
+    record.notices.extend(notice.map(|notice| if has_axes { notice } else { notice.worded(WITHOUT_AXES) }));
     record.labels = labels;
 }
 

@@ -10,7 +10,10 @@ use crate::outputs::{Outputs, is_recording, written};
 use crate::terminal::Terminal;
 use crate::text_file::{TextFormat, TextKind};
 use crate::typed::{quoted, typed_command};
-use hovertone_logs::{ColumnNames, LogError, LogSummary, Loss, SignalRow, log_summary, signal_rows};
+use hovertone_logs::{
+    ColumnNames, ElectricalColumn, LogError, LogSummary, LoggedFlight, Loss, NamedColumn, SignalRow, log_summary,
+    signal_rows,
+};
 use hovertone_report::{Notice, log_json, log_text, signal_headers};
 use std::io::BufWriter;
 use std::path::Path;
@@ -49,6 +52,10 @@ pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<E
 /// Writes what a log holds.
 fn tell(file: &Path, log: &LogSummary, arguments: &LogArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let ending = warn_of_loss(&log.loss, terminal)?;
+    if let Some(notice) = electrical_notice(&log.electrical_columns()) {
+        terminal.flush()?;
+        terminal.warning(&notice, "");
+    }
     let name = file.display().to_string();
     let name = if is_stdin(file) { crate::inputs::STDIN } else { &name };
     if arguments.json {
@@ -86,6 +93,11 @@ pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
 
 /// What to do, with the table of which the name was meant.
 fn hint_of(error: &LogError) -> String {
+    if let LogError::Twice { first, second } = error
+        && let Some(hint) = hint_of_names(first, second)
+    {
+        return hint;
+    }
     if let LogError::NoTime { columns } = error {
         if is_of_stand(columns) {
             return "a table of speeds and thrusts without times is no log: give it to `hovertone fit`".to_owned();
@@ -98,6 +110,24 @@ fn hint_of(error: &LogError) -> String {
         _ => None,
     };
     meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
+}
+
+/// Which name to give the other of two columns, where --column gives one of them the name of both; `None` without such a name.
+fn hint_of_names(first: &NamedColumn, second: &NamedColumn) -> Option<String> {
+    let (name, other) = match (&first.name, &second.name) {
+        (Some(name), _) => (name, second),
+        (None, name) => (name.as_ref()?, first),
+    };
+    if other.name.is_some() {
+        return Some("give each column another name: for rotor 2, rotor2 in place of rotor1".to_owned());
+    }
+    // the next number is that of the next motor
+    let from = name.find(|letter: char| letter.is_ascii_digit())?;
+    let rest = &name[from..];
+    let (number, rest) = rest.split_at(rest.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(rest.len()));
+    let next = number.parse::<u32>().ok()?.checked_add(1)?;
+    let example = quoted(&format!("{}={}{next}{rest}", other.header, &name[..from]));
+    Some(format!("give the columns of the other motors other names too, as in --column {example}"))
 }
 
 /// Whether the columns are those of a thrust stand: a force or a mass, and no time.
@@ -162,8 +192,54 @@ pub(crate) fn is_recording_failure(path: &Path) -> Failure {
 }
 
 /// The failure of a log whose speeds are needed.
-pub(crate) fn without_speeds(path: &Path) -> Failure {
-    Failure::failed("no rotor speed in this log", "let the ESCs report their speeds (telemetry), and log them", path)
+pub(crate) fn without_speeds(path: &Path, flight: &LoggedFlight) -> Failure {
+    let columns = flight.electrical.as_ref().map_or(&[][..], |electrical| &electrical.columns);
+    match electrical_notice(columns) {
+        Some(Notice { text, hint, .. }) => Failure::failed(text, hint, path),
+        None => {
+            let hint = "let the ESCs report their speeds (telemetry), and log them";
+            Failure::failed("no rotor speed in this log", hint, path)
+        }
+    }
+}
+
+/// That columns have electrical speeds, which are no speeds of rotors without the number of magnetic poles, and how to give it; `None` without
+/// such a column.
+fn electrical_notice(columns: &[ElectricalColumn]) -> Option<Notice> {
+    let what = electrical_in_words(columns)?;
+    let names = columns.iter().map(|ElectricalColumn { header, name_with_poles }| {
+        format!(" --column {}", quoted(&format!("{header}={name_with_poles}")))
+    });
+    let unit = match columns.iter().any(|column| column.name_with_poles.contains("erpm100")) {
+        true => "",
+        false => "; if the columns have hundreds of rpm, as in Betaflight, write erpm100 in place of erpm",
+    };
+    let hint = format!(
+        "count the magnets in the bell of a motor (Betaflight's setting motor_poles), and give their number with --column. For 14 magnets, as in most \
+         motors, run: {}{}{unit}",
+        typed_command(),
+        names.collect::<String>()
+    );
+    Some(Notice::new(what, hint))
+}
+
+/// That columns have electrical speeds, and the number that is missing; `None` without such a column.
+pub(crate) fn electrical_in_words(columns: &[ElectricalColumn]) -> Option<String> {
+    let columns = match columns {
+        [] => return None,
+        [one] => format!("the column {} has electrical speeds", one.header),
+        [first, .., last] => format!("the columns {} to {} have electrical speeds", first.header, last.header),
+    };
+    Some(format!(
+        "{columns} (speeds of the magnetic field); to compute rotor speeds, hovertone needs the number of magnetic poles of the motors, which the log \
+         does not have"
+    ))
+}
+
+/// What is wrong with a log whose speeds are used: lost parts, and motors whose speeds are electrical.
+pub(crate) fn notices_of(flight: &LoggedFlight) -> Vec<Notice> {
+    let columns = flight.electrical.as_ref().map_or(&[][..], |electrical| &electrical.columns);
+    flight.notes.iter().map(|words| loss_notice(words)).chain(electrical_notice(columns)).collect()
 }
 
 /// The notice of what a log has lost.

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::meant::{DECIMAL_SIGN, SHARE_SIGN, flag_meant, number_meant, place_meant, results_meant, with_point};
 use crate::missing::{argument_of_example, missing_in_words};
 use crate::nearest::nearest;
+use crate::number_advice::no_percent;
 use crate::see_help::{commands_with, example_and_help, is_typed, typed_command};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
@@ -88,9 +89,9 @@ impl Misuse {
                 let is_share_of_mass = name.starts_with("--mass") && value.ends_with('%');
                 let is_other = is_pair || is_share_of_mass || reason.contains("whole number");
                 match number_meant(&value).filter(|_| !is_other) {
-                    Some((SHARE_SIGN, _)) if name.contains("ppm") => Self {
-                        what: format!("{name} {value}: a number of millionths without a percent sign is needed"),
-                        hint: Some("1 % is 10000 millionths (ppm)".to_owned()),
+                    Some((SHARE_SIGN, _)) if !name.contains("share") => Self {
+                        what: format!("{name} {value}: a number without a percent sign is needed"),
+                        hint: Some(no_percent(&name, &value, words)),
                     },
                     Some((why, hint)) => Self { what: format!("{name} {value}: {why}"), hint: Some(hint) },
                     None => Self { what: format!("{name} {value}: {reason}"), hint: None },

@@ -6,7 +6,7 @@ use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::inputs::{STDIN, is_stdin, open_stream};
 use crate::jobs::jobs_of;
-use crate::log::{column_names, log_failure, loss_notice, without_speeds};
+use crate::log::{column_names, log_failure, notices_of, without_speeds};
 use crate::of_recording::{flags_of, refuse_of_recording};
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
@@ -83,7 +83,7 @@ impl<'a> Plan<'a> {
 
     fn told_of(&self, file: &Path) -> Result<Told, Failure> {
         match flight_of(file, &self.names)? {
-            Some(flight) if flight.speeds_rev_s.is_none() => Err(without_speeds(file)),
+            Some(flight) if flight.speeds_rev_s.is_none() => Err(without_speeds(file, &flight)),
             Some(flight) => {
                 refuse_of_recording(&self.of_recording, file)?;
                 Ok(told_by_log(file, &flight))
@@ -179,9 +179,13 @@ impl Plan<'_> {
                 "they and the heard speeds do not change at the same times",
                 "check that the log and the recording are of the same run",
             ),
+            // the text gives the advice below
             false => (
                 "no step of the speed is heard, from one steady value to another",
-                "record a bench run whose command steps, and hold each level for a second or longer",
+                match self.arguments.json {
+                    true => "record a bench run whose command steps, and hold each level for a second or longer",
+                    false => "",
+                },
             ),
         };
         Some(Notice::new(format!("the commands of {log} are not used: {why}"), hint))
@@ -216,8 +220,7 @@ fn told_by_log(file: &Path, flight: &LoggedFlight) -> Told {
         Some(MotorRows { time_s: speeds.time_s.clone(), speed_rev_s: values.clone() })
     };
     let rows = record.motors.iter().map(|motor| values_of(&motor.name).unwrap_or_default()).collect();
-    let notices: Vec<Notice> = flight.notes.iter().map(|words| loss_notice(words)).collect();
-    Told { record, rows, is_whole: notices.is_empty(), notices }
+    Told { record, rows, is_whole: flight.notes.is_empty(), notices: notices_of(flight) }
 }
 
 /// Where the steps are drawn.

@@ -1,6 +1,7 @@
 //! What to do about a number that is out of its range.
 
 use crate::see_help::{argument_of, see_help, typed_command};
+use hovertone_report::significant;
 use std::ffi::OsString;
 
 /// Ends of names, and what a number of that name is in.
@@ -22,14 +23,42 @@ const UNITS: [(&str, &str); 15] = [
     ("_c", "in degrees Celsius"),
 ];
 
+/// Numbers below this are written with an exponent.
+const SMALL: f64 = 1e-3;
+
 /// "correct --window-s, in seconds: see …", where the name is that of a flag of the command, or of a key in a file.
 pub(crate) fn correct_number(name: &str, words: &[OsString]) -> String {
     let name = name.rsplit('.').next().unwrap_or(name).trim_start_matches('-').replace('-', "_");
     let flag = format!("--{}", name.replace('_', "-"));
     let is_flag = typed_command(words).is_some_and(|command| argument_of(&command, &flag).is_some());
     let place = if is_flag { flag } else { name.clone() };
-    let unit = UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| format!(", {unit}"));
-    format!("correct {place}{}: {}", unit.unwrap_or_default(), see_help(words))
+    let unit = unit_of(&name).map_or(String::new(), |unit| format!(", {unit}"));
+    format!("correct {place}{unit}: {}", see_help(words))
+}
+
+/// What a number of this name, in the spelling of files, is in.
+fn unit_of(name: &str) -> Option<&'static str> {
+    UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| *unit)
+}
+
+/// What to write for a percentage that a flag does not take. That of a standard uncertainty is computed where its value is given too.
+pub(crate) fn no_percent(flag: &str, percent: &str, words: &[OsString]) -> String {
+    let of_flag = flag.replacen("-std", "", 1);
+    let whole = words.windows(2).find(|pair| flag != of_flag && pair[0] == *of_flag);
+    let number = |word: &str| word.trim().parse::<f64>().ok();
+    let numbers = whole.and_then(|pair| Some((pair[1].to_str()?, number(percent.strip_suffix('%')?)?)));
+    if let Some((whole, percent)) = numbers
+        && let Some(value) = number(whole)
+    {
+        let part = value * percent / 100.0;
+        let part = if part.abs() < SMALL { format!("{part:.2e}") } else { significant(part, 3) };
+        return format!("{percent} % of {whole} is {part}");
+    }
+    match unit_of(&flag.trim_start_matches('-').replace('-', "_")) {
+        Some("in millionths") => "give it in millionths (ppm): 1 % is 10000 ppm".to_owned(),
+        Some(unit) => format!("give it {unit}"),
+        None => see_help(words),
+    }
 }
 
 #[cfg(test)]

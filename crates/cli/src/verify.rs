@@ -4,7 +4,7 @@ use crate::args::VerifyArguments;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::jobs::jobs_of;
-use crate::log::{column_names, loss_notice, without_speeds};
+use crate::log::{column_names, notices_of, without_speeds};
 use crate::motor::flight_of;
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
         ));
     };
     let Some(speeds) = &flight.speeds_rev_s else {
-        return Err(without_speeds(log));
+        return Err(without_speeds(log, &flight));
     };
     let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
     let heard = records_of(&jobs, Hearing::of(&arguments.hearing), &progress).into_iter();
@@ -52,8 +52,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     if let Some(reason) = record.reason().filter(|_| record.has_failed()) {
         return Err(Failure::failed(reason, "", &arguments.recording));
     }
-    let losses: Vec<Notice> = flight.notes.iter().map(|words| loss_notice(words)).collect();
-    terminal.counted_notes_and(&losses, &[record]);
+    terminal.counted_notes_and(&notices_of(&flight), &[record]);
     if record.speed().is_none() {
         let or_vehicle = if arguments.tone.vehicle.is_none() { ", or give --vehicle NAME" } else { "" };
         terminal.say(&match record.is_ambiguous() {

@@ -13,7 +13,7 @@ use crate::scale_uncertainty::check_stds;
 use crate::settings::span_of;
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
-use crate::weighed_tone::{tip_of_tone, tone_to_hear, warning_of_other_tone};
+use crate::weighed_tone::{tip_of_clock, tip_of_tone, tone_to_hear, warning_of_other_tone};
 use crate::wording::IN_HOVER;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighError, WeighedHover};
@@ -63,9 +63,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     if let Some((rotor, path)) = results.as_ref().zip(arguments.constant.as_deref()) {
         say_doubts(rotor, path, terminal);
     }
-    if let Some(notice) = tip_of_tone(&arguments.tone, results.as_ref())? {
-        terminal.tip(&notice);
-    }
+    let tips = tip_of_tone(&arguments.tone, results.as_ref())?.into_iter();
+    tips.chain(tip_of_clock(arguments, results.as_ref())).for_each(|notice| terminal.tip(&notice));
     let of_tone = warning_of_other_tone(&arguments.tone, results.as_ref())?;
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
     refuse_copies(&mut jobs, "give each recording once", None)?;

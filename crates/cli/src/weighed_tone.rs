@@ -1,4 +1,4 @@
-//! The tone that `hovertone weigh` hears: that of the flags, or that behind the constant.
+//! The tone that `hovertone weigh` hears, and the clock: those of the flags, or those behind the constant.
 
 use crate::args::{ToneArguments, WeighArguments};
 use crate::failure::Failure;
@@ -46,6 +46,17 @@ pub(crate) fn tone_to_hear(
     };
     tone.check_band()?;
     Ok(tone)
+}
+
+/// That the clock behind the constant was corrected, and this recording is not: of one recorder, both must be corrected.
+pub(crate) fn tip_of_clock(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Option<Notice> {
+    let ppm = results.map_or(0.0, |rotor| rotor.clock_correction_ppm);
+    (ppm != 0.0 && arguments.hearing.clock_correction_ppm.is_none()).then(|| {
+        Notice::new(
+            format!("the constant was measured with a corrected clock of the recorder (clock_correction_ppm = {ppm}), and here no correction is given"),
+            format!("if the same recorder made these recordings, add --clock-correction-ppm {ppm}"),
+        )
+    })
 }
 
 /// The warning that the flags name another tone than that of the constant, so that the sound does not show whether it is the same vehicle. `None`

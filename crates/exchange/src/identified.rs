@@ -46,6 +46,8 @@ pub struct IdentifiedRotor {
     pub doubts: Vec<Doubt>,
     /// Hashes of the recordings behind the constant.
     pub recordings_sha256: Vec<String>,
+    /// Correction of the clock of their recorder, in millionths.
+    pub clock_correction_ppm: f64,
     /// Source of the numbers, for a comment.
     pub origin: String,
 }
@@ -244,6 +246,7 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
         forbids_use,
         doubts: doubts(&results),
         recordings_sha256: recordings_sha256(&results),
+        clock_correction_ppm: number_at("/settings/experiment/clock_correction_ppm").unwrap_or(0.0),
         origin: format!(
             "{}hovertone {} from {file} (sha256 {}){}",
             if forbids_use { "DO NOT USE THIS CONSTANT, its warnings say why: " } else { "" },
@@ -266,11 +269,14 @@ fn recordings_sha256(results: &Value) -> Vec<String> {
 }
 
 /// The method, and in how many recordings the rotors were heard in which way, where several were sought: "rotors separated in 9 recordings,
-/// heard as a group in 6".
+/// only partly separated in 2, heard as a group in 6".
 fn method_in_words(method: &str, results: &Value) -> String {
     let count = |way: &str| results.pointer(&format!("/rotors_heard/{way}")).and_then(Value::as_u64).unwrap_or(0);
+    // older results have no such field
+    let partly = results.get("partly_separated").and_then(Value::as_u64).unwrap_or(0).min(count("separated"));
     let ways = [
-        (count("separated"), "separated"),
+        (count("separated") - partly, "separated"),
+        (partly, "only partly separated"),
         (count("group"), "heard as a group"),
         (count("one_tone"), "heard as one tone"),
     ];
@@ -313,4 +319,21 @@ fn trial_std_share(results: &Value) -> Option<f64> {
         let share = number(load, "std_uncertainty_rad_s")? / number(load, "speed_rad_s")?;
         Some(share * number(load, "trial_count")?.sqrt()).filter(|share| share.is_finite())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::method_in_words;
+    use serde_json::json;
+
+    #[test]
+    fn rotors_that_are_partly_separated_are_told_apart_from_those_that_all_are() {
+        let told = |separated: u64, partly: u64| {
+            let heard = json!({"separated": separated, "group": 1, "one_tone": 0});
+            method_in_words("separated", &json!({"rotors_heard": heard, "partly_separated": partly}))
+        };
+        assert_eq!(told(3, 0), "rotors separated in 3 recordings, heard as a group in 1");
+        assert_eq!(told(3, 2), "rotors separated in 1 recording, only partly separated in 2, heard as a group in 1");
+        assert_eq!(told(2, 2), "rotors only partly separated in 2 recordings, heard as a group in 1");
+    }
 }

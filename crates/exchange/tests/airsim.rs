@@ -44,6 +44,7 @@ fn rotor() -> IdentifiedRotor {
         forbids_use: false,
         doubts: Vec::new(),
         recordings_sha256: Vec::new(),
+        clock_correction_ppm: 0.0,
         origin: "a test".to_owned(),
     }
 }

@@ -1,7 +1,7 @@
 //! Errors in logs.
 
 use crate::{LogFormat, NoTable, has_thousands_point};
-use std::io;
+use std::{fmt, io};
 
 /// Why a log cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -69,12 +69,12 @@ pub enum LogError {
         columns: String,
     },
     /// Two columns with the same quantity.
-    #[error("columns \"{first}\" and \"{second}\" are read as the same signal")]
+    #[error("columns {first} and {second} are read as the same signal")]
     Twice {
-        /// Header of the first.
-        first: String,
-        /// Header of the second.
-        second: String,
+        /// The first.
+        first: NamedColumn,
+        /// The second.
+        second: NamedColumn,
     },
     /// Times that decrease.
     #[error("line {line}: its time, {time_s} s, is earlier than the time of the line above")]
@@ -136,6 +136,23 @@ pub enum LogError {
     },
 }
 
+/// A column of a CSV in a message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedColumn {
+    /// Its header.
+    pub header: String,
+    /// The name that the user gave it.
+    pub name: Option<String>,
+}
+
+impl fmt::Display for NamedColumn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { header, name } = self;
+        write!(f, "\"{header}\"")?;
+        name.as_ref().map_or(Ok(()), |name| write!(f, " (with the name {name} from --column)"))
+    }
+}
+
 /// Largest number of tables that are listed in a message.
 const TABLES_LISTED_MAX: usize = 6;
 
@@ -194,7 +211,10 @@ impl LogError {
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"
             }
-            Self::Twice { .. } => "remove one of the columns",
+            Self::Twice { first, second } if first.name.is_none() && second.name.is_none() => {
+                "remove one of the columns"
+            }
+            Self::Twice { .. } => "give the two columns different names with --column",
             Self::NotInOrder { .. } => {
                 "sort the rows by their time; if the log has several flights, give the log of one"
             }

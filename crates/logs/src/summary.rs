@@ -1,5 +1,6 @@
 //! What a log holds: its tables, their signals, rates and spans. Memory does not grow with the length of the log.
 
+use crate::electrical::{ElectricalColumn, electrical_columns};
 use crate::log::read_log;
 use crate::table::{RowSink, RowValues, SignalRole, TableSignal};
 use crate::table_text::ColumnNames;
@@ -21,7 +22,7 @@ pub struct ValueRange {
 pub struct SignalSummary {
     /// Name, unit and role.
     pub signal: TableSignal,
-    /// Its values, where it tells something about rotors and has any. For a rotor speed without its sign, and without rows at rest.
+    /// Its values, where it tells something about rotors and has any. For a speed without its sign, and without rows at rest.
     pub range: Option<ValueRange>,
 }
 
@@ -62,6 +63,11 @@ impl LogSummary {
     /// Whether a rotor turns in this log: a speed that is 0 throughout is none.
     pub fn has_rotor_speed(&self) -> bool {
         self.about_rotors().any(|(_, signal)| matches!(signal.signal.role, Some(SignalRole::RotorSpeed(_))))
+    }
+
+    /// The columns of electrical speeds.
+    pub fn electrical_columns(&self) -> Vec<ElectricalColumn> {
+        electrical_columns(self.tables.iter().flat_map(|table| &table.signals).map(|summary| &summary.signal))
     }
 
     /// Lowest and highest time of the tables with two rows or more: the time of a single row may be that of another clock. Of all tables
@@ -115,7 +121,7 @@ impl RowSink for Survey {
     fn table(&mut self, name: String, signals: Vec<TableSignal>) {
         let range = ValueRange { low: f64::INFINITY, high: f64::NEG_INFINITY };
         let watched = |(signal, TableSignal { role, .. }): (usize, &TableSignal)| {
-            let is_speed = matches!((*role)?, SignalRole::RotorSpeed(_));
+            let is_speed = matches!((*role)?, SignalRole::RotorSpeed(_) | SignalRole::ElectricalSpeed(_));
             Some(Watched { signal, is_speed, range })
         };
         let watched = signals.iter().enumerate().filter_map(watched).collect();

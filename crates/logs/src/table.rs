@@ -12,6 +12,8 @@ pub(crate) const SIGNALS_MAX: usize = 1 << 16;
 pub enum SignalRole {
     /// Shaft speed of a rotor, in rev/s; its number in the log.
     RotorSpeed(u32),
+    /// Electrical speed of a motor, in the unit of the log; its number in the log. The log does not name the motor's number of magnetic poles.
+    ElectricalSpeed(u32),
     /// Command of a motor, in any unit; its number in the log.
     Command(u32),
     /// Body rate about x, y or z (0, 1, 2), in rad/s.
@@ -40,7 +42,7 @@ impl TableSignal {
     pub(crate) fn with_role(name: String, role: SignalRole) -> Self {
         let unit = match role {
             SignalRole::RotorSpeed(_) => "rev/s",
-            SignalRole::Command(_) => "",
+            SignalRole::ElectricalSpeed(_) | SignalRole::Command(_) => "",
             SignalRole::BodyRate(_) => "rad/s",
             SignalRole::Torque => "N m",
         };

@@ -126,7 +126,10 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
         ),
         (Some(ForceLaw::Square), ..) if !is_tested(fit) => {
-            "the forces are too alike to choose between laws, so none is preferred\n".to_owned()
+            format!(
+                "the forces are too alike to choose between laws, so none is preferred; C_f is the constant of the law {}\n",
+                ForceLaw::Square.formula()
+            )
         }
         _ if fit.laws.len() <= 1 && fit.points.len() == LAW_PARAMETERS => {
             format!("no other law is compared with {}: this needs three forces or more\n", ForceLaw::Square.formula())

@@ -3,8 +3,9 @@
 use crate::motor_json::{CombinedLine, combined_line};
 use crate::motor_record::{LoggedMotor, MotorRecord};
 use crate::notice::Notice;
+use crate::quote::counted;
 use crate::verification::{failed_check, status_of, undecided_check};
-use hovertone_analysis::{LabelSource, RotorLabels, Verification, VerifiedRotor};
+use hovertone_analysis::{LabelSource, NotTold, RotorLabels, Verification, VerifiedRotor};
 use hovertone_dynamics::constants_of;
 use serde::Serialize;
 
@@ -48,10 +49,16 @@ impl FlightLogRecord {
     /// The warning that the log tells nothing: it has no speeds to compare, and does not name the rotors.
     fn unused(&self) -> Option<Notice> {
         let has_check = self.verification.is_some() || self.not_verified.is_some();
-        let reason = self.reason_of_labels().filter(|_| !has_check && self.motors.motors.is_empty())?;
+        let is_unused = !has_check && self.motors.motors.is_empty();
+        let reason = match self.labels.as_ref().filter(|_| is_unused)?.not_told.as_ref()? {
+            NotTold::OtherCount { rotors, of_log } => {
+                format!("the log has {}, but the vehicle has {}", counted(*of_log, "motor"), counted(*rotors, "rotor"))
+            }
+            other => other.to_string(),
+        };
         Some(Notice::new(
             format!(
-                "{} is not used: it has no speeds of these motors, and it does not name the rotors: {reason}",
+                "{} is not used: it has no rotor speed, and it cannot tell which rotor is which: {reason}",
                 self.file
             ),
             "give a log that has the speeds of this vehicle's motors; `hovertone log FILE` lists what a log has",

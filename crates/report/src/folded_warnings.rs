@@ -89,10 +89,15 @@ fn lines_of_warnings(records: &[&SpeedRecord], folded: &[FoldedWarning]) -> usiz
 /// recordings. `None` where there is nothing to tell.
 pub fn weaknesses_in_words(records: &[&SpeedRecord], others: usize) -> Option<String> {
     let ambiguous = records.iter().filter(|record| record.is_ambiguous()).count();
+    let failed = records.iter().filter(|record| record.has_failed()).count();
     let without = records.iter().filter(|record| record.reason().is_some() && !record.has_failed()).count() - ambiguous;
     let warnings = others + lines_of_warnings(records, &folded_warnings(records));
+    // an error alone needs no count
+    let failed = if without + ambiguous + warnings > 0 { failed } else { 0 };
     let mut words = Vec::new();
-    for (count, what) in [(without, "without a speed"), (ambiguous, "with several possible speeds")] {
+    let states =
+        [(failed, "that could not be read"), (without, "without a speed"), (ambiguous, "with several possible speeds")];
+    for (count, what) in states {
         if count > 0 {
             words.push(format!("{} {what}", counted(count, "recording")));
         }

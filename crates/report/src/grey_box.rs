@@ -307,13 +307,41 @@ fn torque_line(constant: &TorqueConstant) -> String {
 fn rank_line(record: &GreyBoxRecord) -> String {
     let information = &record.fit.information;
     let told = record.fit.std_uncertainty.iter().flatten().count();
-    let of_all = format!("the flight shows {told} of the {} numbers of the model", information.parameters);
+    let count = information.parameters;
+    let not_shown: Vec<String> = numbers_not_shown(record).iter().map(|number| number.in_words()).collect();
+    let not_shown: Vec<&str> = not_shown.iter().map(String::as_str).collect();
+    let of_all = match not_shown.len() {
+        _ if told >= count => format!("the flight shows all {count} numbers of the model"),
+        1..=NUMBERS_NAMED_MAX => {
+            format!(
+                "the flight shows {told} of the {count} numbers of the model, all but {}",
+                in_list(&not_shown, "and")
+            )
+        }
+        _ => format!(
+            "the flight shows {told} of the {count} numbers of the model; the tables have – in place of the others"
+        ),
+    };
     match information.rank {
-        rank if rank < information.parameters => {
-            format!("{of_all}; {rank} of them could be found independently of each other")
+        rank if rank < count => {
+            format!("{of_all}; {rank} of the {count} numbers could be found independently of each other")
         }
         _ => of_all,
     }
+}
+
+/// Most numbers that a line names.
+const NUMBERS_NAMED_MAX: usize = 4;
+
+/// The numbers of the model that the flight does not show, without the loops that the model leaves out; empty where loops of both kinds look alike.
+fn numbers_not_shown(record: &GreyBoxRecord) -> Vec<Parameter> {
+    let not_shown = || Parameter::all().into_iter().filter(|number| record.fit.estimate(*number).is_none());
+    let of_axis = |axis: Axis| not_shown().filter(|number| number.axis() == Some(axis)).count();
+    let per_loop = Parameter::all().iter().filter(|number| number.axis() == Some(Axis::ALL[0])).count();
+    let unseen: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| of_axis(*axis) == per_loop).collect();
+    let is_of_model = |number: &Parameter| number.axis().is_none_or(|axis| !unseen.contains(&axis));
+    let left_out = Parameter::all().len() - record.fit.information.parameters;
+    if left_out == per_loop * unseen.len() { not_shown().filter(is_of_model).collect() } else { Vec::new() }
 }
 
 /// Odds of 99 to 1.

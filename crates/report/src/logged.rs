@@ -44,7 +44,7 @@ fn rotors_table(log: &LogSummary) -> TextTable {
         Column::words("unit"),
         Column::numbers("rate", "Hz"),
     ]);
-    for role in ["rotor speed", "command", "body rate"] {
+    for role in ["rotor speed", "electrical speed", "command", "body rate"] {
         for table in &log.tables {
             let is_of_role = |signal: &&SignalSummary| signal.signal.role.map(role_in_words) == Some(role);
             let signals: Vec<&SignalSummary> =
@@ -72,6 +72,7 @@ fn widened(a: ValueRange, b: ValueRange) -> ValueRange {
 fn role_in_words(role: SignalRole) -> &'static str {
     match role {
         SignalRole::RotorSpeed(_) => "rotor speed",
+        SignalRole::ElectricalSpeed(_) => "electrical speed",
         SignalRole::Command(_) => "command",
         SignalRole::BodyRate(_) => "body rate",
         SignalRole::Torque => "torque",
@@ -222,7 +223,9 @@ fn signal_line(summary: &SignalSummary) -> SignalLine<'_> {
         unit: Some(unit.as_str()).filter(|unit| !unit.is_empty()),
         about: role.map(role_in_words),
         number: role.and_then(|role| match role {
-            SignalRole::RotorSpeed(number) | SignalRole::Command(number) => Some(number as usize),
+            SignalRole::RotorSpeed(number) | SignalRole::ElectricalSpeed(number) | SignalRole::Command(number) => {
+                Some(number as usize)
+            }
             SignalRole::BodyRate(axis) => Some(axis),
             SignalRole::Torque => None,
         }),

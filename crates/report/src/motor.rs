@@ -10,7 +10,7 @@ use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::{
     BenchTorque, CombinedEstimate, LOAD_STEPS_MIN, LoadTerm, MotorConstants, MotorStep, StepVerdict, constants_of,
 };
-use hovertone_vehicle::Estimate;
+use hovertone_vehicle::{Estimate, flight_presets, in_list};
 use std::f64::consts::TAU;
 
 /// Digits of a speed and of a command.
@@ -218,9 +218,19 @@ fn torque_text(torque: &BenchTorque) -> String {
             );
             Ok((*constant_n_m_s2, how))
         }
-        other => Err(other.reason().unwrap_or_default()),
+        other => Err(torque_reason(other).unwrap_or_default()),
     };
     format!("\n{}", torque_constant_text(told))
+}
+
+/// Why a log does not tell C_τ, with the vehicles of the command that is named.
+pub(crate) fn torque_reason(torque: &BenchTorque) -> Option<String> {
+    let reason = torque.reason()?;
+    if !matches!(torque, BenchTorque::NoTorque) {
+        return Some(reason);
+    }
+    let vehicles: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
+    Some(format!("{reason} (for the vehicles {})", in_list(&vehicles, "and")))
 }
 
 /// The line of the torque constant in torque = C_τ ω²: its value with the words behind it, or the reason why it is not known.

@@ -1,5 +1,6 @@
 //! Constants of motors from a log as a JSON line for programs.
 
+use crate::motor::torque_reason;
 use crate::motor_record::{LoggedMotor, MotorRecord, MotorSource};
 use crate::version::VERSION;
 use hovertone_dynamics::{
@@ -122,7 +123,7 @@ pub fn motor_json(record: &MotorRecord) -> Result<String, serde_json::Error> {
         speed_rev_s_max: Some(constants.speed_rev_s_max).filter(|speed_rev_s| *speed_rev_s > 0.0),
         torque_constant_n_m_s2: torque.map(|constant| constant.value),
         torque_constant_std_n_m_s2: torque.and_then(|constant| constant.std_uncertainty),
-        torque_constant_reason: record.torque.as_ref().and_then(BenchTorque::reason),
+        torque_constant_reason: record.torque.as_ref().and_then(torque_reason),
         steps: steps.collect(),
         motors: record.motors.iter().map(one_motor_line).collect(),
         version: VERSION,

@@ -5,7 +5,7 @@ use crate::number::{DASH, expanded, significant, with_uncertainty};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::MapOrigin;
-use hovertone_vehicle::Estimate;
+use hovertone_vehicle::{Estimate, in_list};
 
 /// Digits of a command and of a speed.
 const DIGITS: usize = 4;
@@ -29,16 +29,13 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
     if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
-        text += "gain: change of the steady speed per unit of the command; it holds between the smallest and the largest command below that is not \
-        saturated\n";
+        text += "gain: change of the steady speed per unit of the command. It holds from the smallest to the largest command of the next table; \
+        saturated commands do not count\n";
     }
-    if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "if a motor is not held at two different commands, its gain comes from all log rows. There the speed lags behind the command, so the true \
-        gain is larger than this one, perhaps by more than the ±. For a better gain, hold at least two commands for a second each\n";
-    }
+    text += &rows_in_words(record).unwrap_or_default();
     let offsets = || maps().filter(|map| map.gain_rev_s.is_some()).filter_map(|map| map.offset_rev_s);
     if offsets().any(|offset_rev_s| offset_rev_s >= 0.0) {
-        text += "speed at command 0: by the straight line speed = speed at command 0 + gain × command; near command 0 the motor may stand still\n";
+        text += "speed at command 0: where the fitted straight line reaches command 0; the real motor may stand still there\n";
     }
     if maps().filter_map(|map| map.gain_rev_s).any(is_nothing) {
         text += "a gain whose ± is larger than the gain shows nothing: the commands differ too little\n";
@@ -50,6 +47,28 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += "saturated: the speed no longer follows the command; this command is left out of the gain\n";
     }
     text
+}
+
+/// Which motors have a gain from all log rows, and what it means; `None` for none.
+fn rows_in_words(record: &MotorRecord) -> Option<String> {
+    let has_gain = |motor: &&LoggedMotor| motor.model.static_map.as_ref().is_some_and(|map| map.gain_rev_s.is_some());
+    let is_of_rows =
+        |motor: &LoggedMotor| motor.model.static_map.as_ref().is_some_and(|map| map.origin == MapOrigin::Rows);
+    let with_gain: Vec<&LoggedMotor> = record.motors.iter().filter(has_gain).collect();
+    let of_rows: Vec<&str> =
+        with_gain.iter().filter(|motor| is_of_rows(motor)).map(|motor| motor.name.as_str()).collect();
+    let (who, gains) = match of_rows.as_slice() {
+        [] => return None,
+        all if all.len() == record.motors.len() => {
+            ("no motor was held".to_owned(), if all.len() == 1 { "the gain comes" } else { "the gains come" })
+        }
+        [one] => (format!("{one} was not held"), "its gain comes"),
+        several => (format!("{} were not held", in_list(several, "and")), "their gains come"),
+    };
+    Some(format!(
+        "{who} at two different commands for long enough, so {gains} from all log rows. There the speed lags behind the command, so the true gain is \
+        larger, perhaps by more than the ±. For a better gain, hold at least two commands for a second each\n"
+    ))
 }
 
 /// Whether an estimate may be zero: its ± (k = 2) is larger than its value.

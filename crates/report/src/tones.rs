@@ -259,7 +259,9 @@ fn readings_in_a_line(family: &ToneFamily, of_rotor: Option<&str>) -> String {
         true if let Some(of_rotor) = of_rotor => format!("{INDENT}{of_rotor}\n"),
         true => {
             let why = each_once(family.readings.iter().map(|reading| reading.why.as_str()));
-            format!("{INDENT}no rotor can have this tone ({why})\n")
+            let of_gear = family.readings.iter().any(|reading| reading.meaning.gear().is_some());
+            let which = if of_gear { "" } else { " without a gear" };
+            format!("{INDENT}no rotor{which} can have this tone ({why})\n")
         }
         false => match of_rotor {
             Some(of_rotor) => format!("{INDENT}{of_rotor}; if it is the tone of a rotor: {}\n", words.join(" · ")),

@@ -74,7 +74,7 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
             Some(_) => format!("{} g (k = 2{flights})", with_uncertainty(mass.value, mass.std_uncertainty)),
             None => {
                 format!(
-                    "{} g (its ± is not known, because the constant is given without a ±)",
+                    "{} g (its ± is not known, because the constant is given without a ±; --constant-std-n-s2 gives it)",
                     significant(mass.value, DIGITS)
                 )
             }

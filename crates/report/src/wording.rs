@@ -27,7 +27,7 @@ impl Wording {
             ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
             ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
             ("--harmonics 1", "harmonics = 1 under [tone]"),
-            ("the speed is the mean of all rotors", "C_f uses the mean speed of all rotors"),
+            ("the speed is the mean of", "C_f uses the mean speed of"),
             (
                 "to separate them and get a smaller ±, ",
                 "the ± of C_f includes this uncertainty; to separate them and get a smaller ±, ",

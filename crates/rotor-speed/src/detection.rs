@@ -138,9 +138,9 @@ pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> V
     if gap_share > GAP_SHARE {
         warnings.push(Warning::ManyGaps { gap_share });
     }
-    let spread_share =
-        speeds.iter().filter_map(|speed| Some(speed.spread_rev_s? / speed.speed.rev_s())).fold(0.0, f64::max);
-    if spread_share > SPREAD_SHARE {
+    // of the speed that is told: those of other methods beside it may follow other lines
+    let spread_share = speeds.first().and_then(|speed| Some(speed.spread_rev_s? / speed.speed.rev_s()));
+    if let Some(spread_share) = spread_share.filter(|share| *share > SPREAD_SHARE) {
         warnings.push(Warning::SeveralLines { spread_share });
     }
     warnings

@@ -41,7 +41,7 @@ pub use drift::{Drift, DriftKind, row_drifts};
 pub use fit::{preferred_law, thrust_from_loads, warnings_of_points};
 pub use force::Force;
 pub use outline::{LoadOutline, warnings_of_outline};
-pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
+pub use plan::{FlightPlan, PLAN_SHARE_MAX, PlanError, PlanWish, flight_plan};
 pub use settings::{ThrustSettings, UncertaintyInputs};
 pub use speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
 pub use square_law::{
@@ -52,5 +52,5 @@ pub use statistics::{COVERAGE_FACTOR, p_value_text};
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 pub use warning::ThrustWarning;
-pub use warning_words::compared;
+pub use warning_words::{RangeDoubt, compared, range_text};
 pub use weighing::{AcousticScale, DifferentLoads, HeardHover, WeighError, WeighedHover};

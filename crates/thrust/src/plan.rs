@@ -9,7 +9,7 @@ use crate::speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
 use crate::square_law::force_ratio_for_intercept;
 use hovertone_analysis::{Method, Span};
 use hovertone_vehicle::{
-    MASS_FACTOR_MAX, QuantityError, RotorSpeed, check_diameter, check_not_negative, check_positive,
+    MASS_FACTOR_MAX, QuantityError, RotorSpeed, check_diameter, check_not_negative, check_positive, is_swamped,
 };
 use serde::Serialize;
 
@@ -24,7 +24,7 @@ const OVERHEAD_S: f64 = 20.0;
 /// Longest correlation of a speed, s: that of the longest hover. *Decision.*
 const CORRELATION_S_MAX: f64 = 60.0;
 /// Largest wanted uncertainty and largest spread of a speed, as shares. Above it a percentage was meant. *Decision.*
-const SHARE_MAX: f64 = 0.5;
+pub const PLAN_SHARE_MAX: f64 = 0.5;
 /// Speed of the synthetic campaign without added mass, rad/s. Only relative speeds matter. *Numeric.*
 const SPEED_RAD_S: f64 = 400.0;
 
@@ -114,15 +114,19 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         return Err(QuantityError { name, value, must_be: "at most 60, the length of the longest hover" }.into());
     }
     for (name, value) in [("wanted_share", wish.wanted_share), ("speed_spread_share", wish.speed_spread_share)] {
-        if value > SHARE_MAX {
+        if value > PLAN_SHARE_MAX {
             return Err(QuantityError { name, value, must_be: "a share of at most 0.5: 2 % are 0.02" }.into());
         }
     }
-    for (name, value) in [("added_mass_kg", wish.added_mass_kg_max), ("mass_std_kg", wish.mass_std_kg)] {
-        if value > MASS_FACTOR_MAX * wish.vehicle_mass_kg {
-            let must_be = "at most ten times the mass of the vehicle; masses are in kilograms, or with a unit: 31 g are 0.031 or 31g";
-            return Err(QuantityError { name, value, must_be }.into());
-        }
+    if wish.added_mass_kg_max > MASS_FACTOR_MAX * wish.vehicle_mass_kg {
+        let (name, value) = ("added_mass_kg", wish.added_mass_kg_max);
+        let must_be =
+            "at most ten times the mass of the vehicle; masses are in kilograms, or with a unit: 31 g are 0.031 or 31g";
+        return Err(QuantityError { name, value, must_be }.into());
+    }
+    if is_swamped(wish.vehicle_mass_kg, wish.mass_std_kg) {
+        let (name, value) = ("mass_std_kg", wish.mass_std_kg);
+        return Err(QuantityError { name, value, must_be: "at most half of the mass of the vehicle" }.into());
     }
     let diameter_m = wish.settings.propeller_diameter_m;
     diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
@@ -245,6 +249,10 @@ mod tests {
         assert!(refused(PlanWish { vehicle_mass_kg: f64::NAN, ..wish(0.01) }));
         assert!(refused(PlanWish { mass_std_kg: f64::NAN, ..wish(0.01) }));
         assert!(refused(PlanWish { mass_std_kg: -0.1, ..wish(0.01) }));
+        assert!(
+            refused(PlanWish { mass_std_kg: 0.21, ..wish(0.01) })
+                && !refused(PlanWish { mass_std_kg: 0.2, ..wish(0.01) })
+        );
         assert!(refused(PlanWish { gravity_std_m_s2: f64::INFINITY, ..wish(0.01) }));
         let diameter = ThrustSettings { propeller_diameter_m: Some(254.0), ..wish(0.01).settings };
         assert!(refused(PlanWish { settings: diameter, ..wish(0.01) }));

@@ -47,15 +47,48 @@ pub(crate) fn drift_text(drift: &Drift) -> String {
     )
 }
 
-pub(crate) fn range_text(range: &LoadRange) -> String {
+/// What makes it uncertain whether forces of a range show the law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RangeDoubt {
+    /// The uncertainties of the speeds, mostly.
+    Speeds,
+    /// The stated uncertainties of the forces, where the speeds have none.
+    Forces,
+    /// The scatter, where no uncertainty is stated.
+    Scatter,
+}
+
+/// Why the law is not tested over a range of forces.
+pub fn range_text(range: &LoadRange, doubt: RangeDoubt) -> String {
     let Some(needed) = range.force_ratio_needed else {
-        return "the forces and speeds are too uncertain to test F = C_f ω²".to_owned();
+        let too_uncertain = match doubt {
+            RangeDoubt::Speeds => "the forces and speeds are too uncertain",
+            RangeDoubt::Forces => "the forces are too uncertain",
+            RangeDoubt::Scatter => "the scatter of the rows is too large",
+        };
+        return format!("{too_uncertain} to test F = C_f ω²");
     };
     let [ratio, needed] = compared([range.force_ratio, needed]);
+    let with = match doubt {
+        RangeDoubt::Speeds => "with speeds as uncertain as these",
+        RangeDoubt::Forces => "with forces as uncertain as these",
+        RangeDoubt::Scatter => "with as much scatter as in these rows",
+    };
     format!(
-        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, but with speeds as uncertain \
-        as these, it must be {needed} times or more"
+        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, but {with}, it must be \
+        {needed} times or more"
     )
+}
+
+/// Rows of which only some have an uncertainty, or none.
+pub(crate) fn incomplete_text(stated: usize, of: usize) -> String {
+    let rows = match stated {
+        0 => "no row has".to_owned(),
+        1 => format!("only one of {of} rows has"),
+        stated => format!("only {stated} of {of} rows have"),
+    };
+    format!("{rows} an uncertainty above 0: the ± comes from the scatter of all rows")
 }
 
 /// Two different ratios with two decimals, or with as many as show that they differ.

@@ -141,8 +141,9 @@ pub enum Contradiction {
     GearWheelTooSmall(Gear),
     /// A propeller whose tips would be too fast.
     #[error(
-        "diameter_m = {diameter_m}: at {rev_s:.1} rev/s the blade tips would move at Mach {mach:.2}, and no multirotor exceeds Mach \
-        {TIP_MACH_MAX}"
+        "diameter_m = {diameter_m}: {} the blade tips would move at Mach {mach:.2}, and no multirotor exceeds Mach \
+        {TIP_MACH_MAX}",
+        at_speed(.rev_s)
     )]
     TipsTooFast {
         /// The given diameter.
@@ -152,6 +153,12 @@ pub enum Contradiction {
         /// Mach number of the tips at this speed.
         mach: f64,
     },
+}
+
+/// "at 250.0 rev/s".
+fn at_speed(rev_s: &f64) -> String {
+    let at = if *rev_s <= HOVER_REV_S_MIN { "even at only" } else { "at" };
+    format!("{at} {rev_s:.1} rev/s")
 }
 
 impl Contradiction {

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::files::{files_of, home_expanded, is_pattern, missing_folder, sha256_of_bytes};
 use crate::inputs::{is_stdin, read_text};
-use crate::recording_files::recordings_below;
+use crate::recording_files::{has_ending_of_recording, recordings_below};
 use crate::stored::{self, StoredRecording, is_address};
 use hovertone_archive::{BatchIdentity, Plan};
 use hovertone_report::counted;
@@ -115,6 +115,10 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Recordings, Failure> {
                 pattern if missing_folder(pattern).is_some() => {
                     ("there is no such folder: no file matches this pattern", "correct the name of the folder")
                 }
+                pattern if !below_matches(pattern).is_empty() => (
+                    "the folders that match this pattern have no recordings",
+                    "hovertone finds recordings by the endings of their names, such as .wav or .mp4",
+                ),
                 _ => ("no file matches this pattern", "check the folder and the ending in the pattern, such as *.wav"),
             };
             return Err(Failure::failed(what, hint, input));
@@ -179,6 +183,9 @@ fn files_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
         return Ok(sorted_below(input));
     }
     let files = files_of(input);
+    if files.is_empty() {
+        return Ok(below_matches(input).into_iter().filter(|path| has_ending_of_recording(path)).collect());
+    }
     let is_missing = |path: &PathBuf| !path.exists();
     match files.iter().find(|path| is_missing(path)) {
         Some(path) if !is_pattern(&path.to_string_lossy()) => {
@@ -191,6 +198,11 @@ fn files_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
             .flat_map(|path| if path.is_dir() { sorted_below(&path) } else { vec![path] })
             .collect()),
     }
+}
+
+/// All files in the folders that a pattern matches, at any depth.
+fn below_matches(pattern: &Path) -> Vec<PathBuf> {
+    files_of(&pattern.join("**"))
 }
 
 /// In the order of the names: of two names of one file, the first is the same one on every disk.

@@ -346,11 +346,13 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         format!(
             "{unusual}correction of the clock, if the known number is {right}: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
              [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}  # error that may remain\n",
+             clock_ppm = {}  # error that may remain, {WARMTH_PPM} or more by warmth\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {
-        "correction of the clock: none, because the error is smaller than its ±\n".to_owned()
+        let kept = (before_ppm != 0.0).then(|| format!("keep --clock-correction-ppm {before_ppm}"));
+        let what = kept.as_deref().unwrap_or("none");
+        format!("correction of the clock: {what}, because the error is smaller than its ±\n")
     };
     text
 }

@@ -46,6 +46,15 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
         if let Some(point) = file.filter(|_| mass.is_none()).and_then(mass_with_point) {
             return Err(Failure::usage(format!("--mass {word}: {DECIMAL_SIGN}"), format!("write --mass {point}")));
         }
+        if mass.is_none()
+            && word.split('=').next().is_some_and(|mass| mass.contains(['±', '+']))
+            && !Path::new(word).exists()
+        {
+            return Err(Failure::usage(
+                format!("--mass {word}: a mass has no ± here"),
+                "give the mass alone, as in --mass 413g; an experiment file takes the standard uncertainty as mass_std_kg",
+            ));
+        }
         let Some(mass_kg) = current_kg else {
             let what = match word.split_once('=') {
                 Some((mass, _)) => format!("\"{mass}\" is not a mass"),
@@ -163,6 +172,8 @@ mod tests {
             (&["0,413=a.mov"], "the decimal sign is a point"),
             (&["0,413", "a.mov"], "--mass 0,413: the decimal sign is a point"),
             (&["0.413", "a.mov", "0,462kg", "b.mov"], "--mass 0,462kg: the decimal sign is a point"),
+            (&["0.413±0.001", "a.mov"], "a mass has no ± here"),
+            (&["413g+-1g=a.mov"], "a mass has no ± here"),
             (&["413=a.mov"], "413g"),
             (&["-0.4=a.mov"], "is not a mass"),
             (&["0.0005=a.mov"], "mass_kg = 0.0005, but it must be from 0.001"),

@@ -35,6 +35,8 @@ pub(crate) struct Draft {
     pub(crate) gravity_m_s2: Option<f64>,
     pub(crate) latitude_deg: Option<f64>,
     pub(crate) height_m: Option<f64>,
+    /// Correction of the recorder's clock, in millionths.
+    pub(crate) clock_correction_ppm: Option<f64>,
     /// The loads.
     pub(crate) loads: Vec<LoadDraft>,
 }
@@ -65,6 +67,7 @@ impl Draft {
             gravity_m_s2: arguments.place.gravity_m_s2,
             latitude_deg: arguments.place.latitude_deg,
             height_m: arguments.place.height_m,
+            clock_correction_ppm: None,
             loads: loads_from_words(&arguments.mass)?,
         };
         draft.check_masses(vehicle)?;

@@ -42,7 +42,7 @@ impl Draft {
             &self.vehicle_mass_kg().to_string(),
             "ready to fly, with battery: the mass of the lightest load",
         );
-        text += &line("mass_std_kg", "0.0005", "the scale shows whole grams");
+        text += &line("mass_std_kg", "0.0005", "for a scale that shows whole grams: change it for another scale");
         text += &self.gravity_lines();
         text += match self.height_m {
             Some(_) => {
@@ -52,6 +52,7 @@ impl Draft {
         };
         text += "# temperature_c = 20.0\n# pressure_hpa = 1013.0\n";
         text += &self.tone_lines();
+        text += &self.recorder_lines();
         let names = names_of(&self.loads);
         for (load, name) in self.loads.iter().zip(names) {
             text += &self.load_lines(load, &name);
@@ -101,6 +102,14 @@ impl Draft {
             .harmonics
             .map(|count| line("harmonics", &count.to_string(), "multiples of the tone, itself the first"));
         format!("\n[tone]\n{}{}", band.unwrap_or_default(), harmonics.unwrap_or_default())
+    }
+
+    /// The clock of the recorder, where its correction is known.
+    fn recorder_lines(&self) -> String {
+        self.clock_correction_ppm.map_or(String::new(), |ppm| {
+            let value = line("clock_correction_ppm", &ppm.to_string(), "as `hovertone calibrate` prints it");
+            format!("\n[recorder]\n{value}")
+        })
     }
 
     fn load_lines(&self, load: &LoadDraft, name: &str) -> String {

@@ -28,8 +28,8 @@ pub(super) fn table_failure(error: &TableError, path: &Path) -> Failure {
             "the numbers probably have another unit: write the unit into the header, as in speed_rad_s"
         }
         TableError::NoColumn { .. } => {
-            "rename the header of the right column, as in speed_rpm, thrust_g or mass_g; `hovertone fit --help` lists \
-             all words that hovertone knows"
+            "rename the header of the right column, as in speed_rpm, thrust_g or mass_g; docs/formats.md lists the words \
+             that hovertone knows, under \"hovertone fit\""
         }
         TableError::NoUnit { .. } => "write the unit into the header: thrust_g, thrust_n, thrust_kg or thrust_lbf",
         TableError::Csv(error) => error.hint(),
@@ -114,8 +114,9 @@ pub(super) fn without_scatter(reason: NoScatter, group: &StandGroup, table: &Sta
     };
     let name = &group.name;
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
-    // which columns are read is another matter
-    let of_rows = table.notes.iter().filter(|note| note.is_of(name) && !matches!(note, TableNote::Rivals { .. }));
+    // which columns are read is another matter, and copies are not in a fit
+    let is_about_rows = |note: &&TableNote| !matches!(note, TableNote::Rivals { .. } | TableNote::Copies { .. });
+    let of_rows = table.notes.iter().filter(|note| note.is_of(name)).filter(is_about_rows);
     let notes: String = of_rows.map(|note| format!("; {note}")).collect();
     Failure::Usage {
         what: format!("{group}{reason}{count}{notes}"),

@@ -18,7 +18,7 @@ use hovertone::thrust::{
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json};
 use hovertone_vehicle::{Estimate, RotorSpeed, check_tips, number_in_words};
-use notices::{WorstRow, far_off_notice, notice_of, rotors_notice, too_large_notice, too_strong_notice};
+use notices::{FittedRows, WorstRow, far_off_notice, notice_of, rotors_notice, too_large_notice, too_strong_notice};
 use planned::plan_campaign;
 use std::path::Path;
 
@@ -123,14 +123,18 @@ fn half_given(air: &AirArguments, place: &PlaceArguments) -> Option<Notice> {
 
 fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> {
     let bytes = read_bytes(path, "the table")?;
-    // headers in Latin-1 are welcome, a recording is not
     if bytes.contains(&0) {
         return Err(is_no_text("the table", path, &bytes));
     }
-    let text = String::from_utf8_lossy(&bytes);
+    let text = text_of(&bytes);
     let table = table_from_csv(&text).map_err(|error| table_failure(&error, path))?;
     let sha256 = sha256_of_bytes(&bytes);
     table.groups.iter().map(|group| fitted_table(group, &table, path, &sha256, plan)).collect()
+}
+
+/// The text of a table in UTF-8; or else in Latin-1, in which office programs write the signs ± and µ.
+fn text_of(bytes: &[u8]) -> String {
+    std::str::from_utf8(bytes).map_or_else(|_| bytes.iter().copied().map(char::from).collect(), str::to_owned)
 }
 
 fn fitted_table(
@@ -166,7 +170,14 @@ fn fitted_table(
     let mut warnings = warnings_of_rows(group, &points, &fit, is_weighed.then_some(plan.gravity.m_s2));
     let figure_of_merit = merit_of(group, &points, rotor_count, plan);
     warnings.extend(implausible(figure_of_merit, coefficients));
-    let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m));
+    let rows = FittedRows {
+        speed_column: &table.speed_column,
+        stated: if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] },
+        has_speed_std: points.iter().any(|point| point.speed_square_std_rad2_s2 > 0.0),
+        is_quiet: fit.agreement.is_some_and(|agreement| agreement.p_value > QUIET_CHANCE),
+        worst: WorstRow::of(&points, &fit),
+    };
+    let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m, &rows));
     let too_strong = of_any_air()
         .or_else(|| too_large_notice(per_rotor))
         .or_else(|| too_strong_notice(group, per_rotor, plan.given_rotors.is_some()))
@@ -176,15 +187,11 @@ fn fitted_table(
     let is_explained = |warning: &&ThrustWarning| {
         is_too_strong && matches!(warning, ThrustWarning::LoadsDisagree { are_rows: true, .. })
     };
-    let is_quiet = fit.agreement.is_some_and(|agreement| agreement.p_value > QUIET_CHANCE);
-    let worst = WorstRow::of(&points, &fit);
-    let std_columns = if points.iter().all(has_std) { table.std_columns.as_slice() } else { &[] };
-    let of_table = table
-        .notes
-        .iter()
-        .filter(|note| note.is_of(&group.name))
-        .map(|note| Notice::new(note.to_string(), note.hint()));
-    let notes = rotors_notice(table, is_weighed, plan).into_iter().chain(of_table);
+    let of_table = table.notes.iter().filter(|note| note.is_of(&group.name));
+    let of_table = of_table.map(|note| Notice::new(note.to_string(), note.hint()));
+    let of_fit = warnings.iter().filter(|warning| !is_explained(warning)).map(|warning| notice_of(warning, &rows));
+    let notices =
+        rotors_notice(table, is_weighed, plan).into_iter().chain(of_table).chain(too_strong).chain(of_fit).collect();
     Ok(FittedTable {
         file: path.display().to_string(),
         sha256: sha256.to_owned(),
@@ -201,15 +208,7 @@ fn fitted_table(
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
         forbids_use: is_too_strong || warnings.iter().any(ThrustWarning::forbids_use),
         is_incomplete: is_too_strong || warnings.iter().any(ThrustWarning::makes_incomplete),
-        notices: notes
-            .chain(too_strong)
-            .chain(
-                warnings
-                    .iter()
-                    .filter(|warning| !is_explained(warning))
-                    .map(|warning| notice_of(warning, std_columns, is_quiet, worst.as_ref())),
-            )
-            .collect(),
+        notices,
         fit,
     })
 }
@@ -261,7 +260,7 @@ fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Fai
             what: format!("line {}: {tips}", row.line_number),
             hint:
                 "check the diameter (from tip to tip, in metres: 10 inches are 0.254), and the speed in this line and \
-                   its unit"
+                   its unit; if all are right, leave --diameter-m out: C_f does not need it"
                     .to_owned(),
             path: Some(path.to_owned()),
         })?;

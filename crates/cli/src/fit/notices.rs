@@ -2,7 +2,8 @@
 
 use super::Plan;
 use hovertone::thrust::{
-    ForceLaw, ForcePoint, LoadRange, SquareLawFit, ThrustCoefficients, ThrustWarning, least_diameter_m, least_tip_mach,
+    ForceLaw, ForcePoint, LoadRange, RangeDoubt, SquareLawFit, ThrustCoefficients, ThrustWarning, least_diameter_m,
+    least_tip_mach, range_text,
 };
 use hovertone_exchange::{StandGroup, StandTable};
 use hovertone_report::{Notice, fixed, significant};
@@ -32,14 +33,49 @@ impl<'a> WorstRow<'a> {
     }
 }
 
+/// What the notices say of the table of a fit.
+pub(super) struct FittedRows<'a> {
+    /// Header of the column with the speed.
+    pub(super) speed_column: &'a str,
+    /// Headers of the columns with uncertainties, where all rows have one.
+    pub(super) stated: &'a [String],
+    /// Whether the speeds have uncertainties.
+    pub(super) has_speed_std: bool,
+    /// Whether the rows differ from the law by far less than the stated uncertainties say.
+    pub(super) is_quiet: bool,
+    pub(super) worst: Option<WorstRow<'a>>,
+}
+
+impl FittedRows<'_> {
+    /// What makes it uncertain whether the forces show the law.
+    fn doubt(&self) -> RangeDoubt {
+        match (self.stated.is_empty(), self.has_speed_std) {
+            (true, _) => RangeDoubt::Scatter,
+            (false, true) => RangeDoubt::Speeds,
+            (false, false) => RangeDoubt::Forces,
+        }
+    }
+
+    /// What to check where a speed may be a multiple of the right one.
+    fn pole_pairs(&self) -> String {
+        match is_electrical(self.speed_column) {
+            true => format!(
+                "; the stand calculates column \"{}\" with the number of pole pairs: check it too",
+                self.speed_column
+            ),
+            false => String::new(),
+        }
+    }
+}
+
+/// Whether a column is the speed of the electrical field over a number of pole pairs, as stands without a tachometer have it.
+fn is_electrical(header: &str) -> bool {
+    header.to_lowercase().contains("electrical")
+}
+
 /// A warning about the fit. Where uncertainties are stated, they too may be why rows do not fit.
-/// `is_quiet`: the rows differ from the law by far less than the stated uncertainties say.
-pub(super) fn notice_of(
-    warning: &ThrustWarning,
-    stated: &[String],
-    is_quiet: bool,
-    worst: Option<&WorstRow<'_>>,
-) -> Notice {
+pub(super) fn notice_of(warning: &ThrustWarning, rows: &FittedRows<'_>) -> Notice {
+    let stated = rows.stated;
     let is_of_rows = matches!(
         warning,
         ThrustWarning::LoadDoesNotFit { is_row: true, .. }
@@ -47,27 +83,27 @@ pub(super) fn notice_of(
             | ThrustWarning::RowsDoNotFit { .. }
     );
     match warning {
-        ThrustWarning::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
+        ThrustWarning::NarrowLoadRange(range @ LoadRange { force_ratio_needed: None, .. }) => {
             let too_large = match stated.is_empty() {
                 true => String::new(),
                 false => format!("check whether the uncertainties in {} are too large; ", stated.join(" or ")),
             };
             let hint = format!("{too_large}correct the rows that do not fit; if all is right, measure more rows");
-            Notice::new(warning.to_string(), hint)
+            Notice::new(range_text(range, rows.doubt()), hint)
         }
-        ThrustWarning::NarrowLoadRange(_) if is_quiet && !stated.is_empty() => Notice::new(
-            warning.to_string(),
+        ThrustWarning::NarrowLoadRange(range) if rows.is_quiet && !stated.is_empty() => Notice::new(
+            range_text(range, rows.doubt()),
             format!(
                 "the rows differ from the law by far less than {} says: is it too large, or an expanded uncertainty? If not, measure a wider range \
                  of forces; C_f is still valid near these forces",
                 stated.join(" or ")
             ),
         ),
-        ThrustWarning::NarrowLoadRange(_) => Notice::new(
-            warning.to_string(),
+        ThrustWarning::NarrowLoadRange(range) => Notice::new(
+            range_text(range, rows.doubt()),
             "C_f is still valid near these forces; to test the law, measure a wider range of forces",
         ),
-        ThrustWarning::OtherLawPreferred { law, .. } if let Some(WorstRow { name, share }) = worst => {
+        ThrustWarning::OtherLawPreferred { law, .. } if let Some(WorstRow { name, share }) = &rows.worst => {
             let zero =
                 if *law == ForceLaw::SquareWithIntercept { "check that the scale showed 0 at rest; " } else { "" };
             let (percent, size) = (fixed(100.0 * share.abs(), 1), if *share < 0.0 { "small" } else { "large" });
@@ -86,10 +122,21 @@ pub(super) fn notice_of(
             "do not use this constant: check the speeds, the forces and their units in all rows, and the number of \
              rotors; then measure more rows",
         ),
+        // a table has no blades and no gear
+        ThrustWarning::ImplausibleThrustCoefficient { .. } => {
+            let (least, most) = (*THRUST_COEFFICIENT.start(), *THRUST_COEFFICIENT.end());
+            let hint = format!(
+                "propellers have {least} to {most}: check --diameter-m, --rotors, and the units of the forces and of the speeds{}",
+                rows.pole_pairs()
+            );
+            Notice::new(warning.to_string(), hint)
+        }
         _ if is_of_rows && !stated.is_empty() => {
-            let has_speed = stated.iter().any(|column| column.contains("speed") || column.contains("rpm"));
-            let no_speed =
-                if has_speed { "" } else { "; or the speeds are uncertain too: add a column such as speed_std_rpm" };
+            let no_speed = if rows.has_speed_std {
+                ""
+            } else {
+                "; or the speeds are uncertain too: add a column such as speed_std_rpm"
+            };
             let hint =
                 format!("{}; or the uncertainties in {} are too small{no_speed}", warning.hint(), stated.join(" or "));
             Notice::new(warning.to_string(), hint)
@@ -115,7 +162,7 @@ pub(super) fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -
 }
 
 /// Says that C_T is far outside the range of propellers in the air of any place.
-pub(super) fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Notice> {
+pub(super) fn far_off_notice(per_rotor: Estimate, diameter_m: f64, rows: &FittedRows<'_>) -> Option<Notice> {
     let coefficient = ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, AIR_KG_M3).propeller;
     let (least, most) = (*THRUST_COEFFICIENT.start(), *THRUST_COEFFICIENT.end());
     let is_far = coefficient < least / FAR_OFF_FACTOR || coefficient > most * FAR_OFF_FACTOR;
@@ -123,7 +170,10 @@ pub(super) fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Not
         "with this diameter, the thrust coefficient C_T would be {} in air of {AIR_KG_M3} kg/m³, but propellers have {least} to {most}",
         significant(coefficient, 2)
     );
-    let hint = "check the units of the forces and of the speeds (rpm, rev/s or rad/s), the diameter, and --rotors";
+    let hint = format!(
+        "check the units of the forces and of the speeds (rpm, rev/s or rad/s), the diameter, and --rotors{}",
+        rows.pole_pairs()
+    );
     is_far.then(|| Notice::new(text, hint))
 }
 
@@ -161,24 +211,54 @@ pub(super) fn too_strong_notice(group: &StandGroup, per_rotor: Estimate, is_coun
 mod tests {
     use super::*;
 
+    fn rows<'a>(stated: &'a [String], speed_column: &'a str) -> FittedRows<'a> {
+        FittedRows { speed_column, stated, has_speed_std: false, is_quiet: false, worst: None }
+    }
+
     #[test]
     fn stated_uncertainties_are_named_where_rows_do_not_fit() {
         let columns = ["thrust_std_g".to_owned()];
         let of_rows = ThrustWarning::RowsDoNotFit { names: vec!["line 3".to_owned()], are_left_out: false };
         assert!(
-            notice_of(&of_rows, &columns, false, None)
+            notice_of(&of_rows, &rows(&columns, "rpm"))
                 .hint
                 .contains("; or the uncertainties in thrust_std_g are too small; or the speeds are uncertain too")
         );
-        assert_eq!(notice_of(&of_rows, &[], false, None), Notice::from(&of_rows));
+        assert_eq!(notice_of(&of_rows, &rows(&[], "rpm")), Notice::from(&of_rows));
         // a table has rows, not loads
-        assert!(notice_of(&ThrustWarning::SingleLoad, &columns, false, None).text.starts_with("only one row"));
+        assert!(notice_of(&ThrustWarning::SingleLoad, &rows(&columns, "rpm")).text.starts_with("only one row"));
     }
 
     #[test]
     fn a_table_is_not_asked_for_a_tone_or_a_flight() {
-        let split = notice_of(&ThrustWarning::ConstantsSplit, &[], false, None).hint;
+        let split = notice_of(&ThrustWarning::ConstantsSplit, &rows(&[], "rpm")).hint;
         assert!(split.starts_with("do not use this constant: check the speeds"), "{split}");
         assert!(!split.contains("tone") && !split.contains("load"), "{split}");
+    }
+
+    #[test]
+    fn a_thrust_coefficient_is_not_blamed_on_flags_that_a_fit_lacks() {
+        let low = ThrustWarning::ImplausibleThrustCoefficient { propeller: 0.026 };
+        let [optical, electrical] = ["Motor Optical Speed (RPM)", "Motor Electrical Speed (RPM)"]
+            .map(|speed| notice_of(&low, &rows(&[], speed)).hint);
+        assert!(!optical.contains("blades") && !optical.contains("gear") && !optical.contains("pole"), "{optical}");
+        assert!(electrical.contains("with the number of pole pairs: check it too"), "{electrical}");
+    }
+
+    #[test]
+    fn forces_that_are_too_alike_are_not_blamed_on_what_the_table_does_not_have() {
+        let range = LoadRange {
+            force_ratio: 2.55,
+            intercept_std_share: 0.03,
+            shows_intercept: false,
+            force_ratio_needed: Some(2.84),
+        };
+        let narrow = ThrustWarning::NarrowLoadRange(range);
+        let columns = ["thrust_std_g".to_owned()];
+        let said = |rows: FittedRows<'_>| notice_of(&narrow, &rows).text;
+        assert!(said(rows(&[], "rpm")).contains("but with as much scatter as in these rows, it must be 2.84 times"));
+        assert!(said(rows(&columns, "rpm")).contains("but with forces as uncertain as these, it must be"));
+        let both = FittedRows { has_speed_std: true, ..rows(&columns, "rpm") };
+        assert!(said(both).contains("but with speeds as uncertain as these, it must be"));
     }
 }

@@ -4,7 +4,7 @@ use crate::args::FitArguments;
 use crate::failure::{Ending, Failure};
 use crate::place::refuse_height_alone;
 use crate::terminal::Terminal;
-use hovertone::thrust::{BudgetInput, Gravity, PlanError, PlanWish, ThrustSettings, flight_plan};
+use hovertone::thrust::{BudgetInput, Gravity, PLAN_SHARE_MAX, PlanError, PlanWish, ThrustSettings, flight_plan};
 use hovertone_report::flight_plan_text;
 use hovertone_vehicle::{KnownRotor, QuantityError, check_diameter};
 
@@ -49,9 +49,18 @@ pub(super) fn plan_campaign(
     };
     let plan = flight_plan(&wish).map_err(|error| {
         let hint = match &error {
-            PlanError::OutOfReach { largest, .. } => hint_against(*largest).to_owned(),
-            PlanError::Quantity(QuantityError { name: "wanted_share", value, .. }) if *value >= 0.5 => {
+            PlanError::OutOfReach { largest, best_share } if *best_share > PLAN_SHARE_MAX => {
+                hint_against(*largest).unwrap_or("check the masses and the uncertainties that you gave").to_owned()
+            }
+            PlanError::OutOfReach { largest, .. } => match hint_against(*largest) {
+                Some(hint) => format!("give a larger --wanted-share; or {hint}"),
+                None => "give a larger --wanted-share".to_owned(),
+            },
+            PlanError::Quantity(QuantityError { name: "wanted_share", value, .. }) if *value >= PLAN_SHARE_MAX => {
                 format!("for {value} % give --wanted-share {}", value / 100.0)
+            }
+            PlanError::Quantity(QuantityError { name: "mass_std_kg", value, .. }) if *value > 0.0 => {
+                "give the uncertainty in kilograms: for 0.5 g write 0.0005".to_owned()
             }
             _ => "see `hovertone fit --help`".to_owned(),
         };
@@ -66,19 +75,18 @@ pub(super) fn plan_campaign(
 }
 
 /// What makes the largest part of an uncertainty smaller.
-fn hint_against(largest: BudgetInput) -> &'static str {
+fn hint_against(largest: BudgetInput) -> Option<&'static str> {
     match largest {
         BudgetInput::VehicleMass | BudgetInput::AddedMass | BudgetInput::Scale => {
-            "give a larger --wanted-share; or weigh more exactly, and plan again with --mass-std-kg"
+            Some("weigh more exactly, and plan again with --mass-std-kg")
         }
         BudgetInput::Gravity => {
-            "give a larger --wanted-share; or plan again with the place of the flight (--latitude-deg), which gives the \
-             local gravity"
+            Some("plan again with the place of the flight (--latitude-deg), which gives the local gravity")
         }
-        BudgetInput::LoudestRotor => {
-            "give a larger --wanted-share; or record so near the vehicle that `hovertone speed` separates the rotors \
-             or hears them as a group, and plan again with --rotors-separated"
-        }
-        _ => "give a larger --wanted-share",
+        BudgetInput::LoudestRotor => Some(
+            "record so near the vehicle that `hovertone speed` separates the rotors or hears them as a group, and plan \
+             again with --rotors-separated",
+        ),
+        _ => None,
     }
 }

@@ -1,14 +1,11 @@
 //! `identify --check`: what would be done, which files were found, and what is missing, without analysis.
 
 use super::logs::FlownLog;
-use super::recordings::{
-    FoundRecordings, Missing, folder_without_recordings, found_recordings, nearby, place_of, refuse_twice,
-};
+use super::recordings::{FoundRecordings, Missing, found_recordings, refuse_twice};
 use super::{ExperimentSource, LoadJob, checked_folder, hearing_of};
 use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
 use crate::recording::{Hearing, Job};
-use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::terminal::Terminal;
 use hovertone::experiment::Experiment;
 use hovertone::thrust::{Force, Gravity, ThrustWarning};
@@ -94,17 +91,7 @@ fn planned(job: &Job, hearing: Hearing) -> PlannedRecording {
 
 /// What makes the analysis impossible.
 fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path) -> Vec<Notice> {
-    let missing = missing.iter().map(|Missing { load, name }| {
-        if let Some(folder) = closed_folder(&place_of(name, root)) {
-            return Notice::new(format!("{}: {CLOSED_FOLDER}", folder.display()), GET_RIGHT);
-        }
-        if let Some(folder) = folder_without_recordings(&place_of(name, root)) {
-            return Notice::new(format!("{}: {}", folder.path.display(), folder.what), folder.hint);
-        }
-        let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!("; {nearby}"));
-        let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
-        Notice::new(what, "correct the name, or put the file there")
-    });
+    let missing = missing.iter().map(|missing| missing.notice(root));
     let recordings = plan.loads.iter().flat_map(|load| &load.recordings);
     let broken = recordings.filter_map(|recording| {
         let reason = recording.sound.as_ref().err()?;

@@ -10,7 +10,7 @@ use crate::typed::quoted;
 use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
 use hovertone::thrust::VehicleModel;
-use hovertone_report::Wording;
+use hovertone_report::{Notice, Wording};
 use hovertone_vehicle::{Contradiction, find_preset, presets};
 use std::path::{Path, PathBuf};
 
@@ -35,6 +35,8 @@ pub(crate) struct ExperimentSource {
     pub(crate) typed: Option<TypedExperiment>,
     /// How advice about its recordings is worded.
     pub(crate) wording: Wording,
+    /// What to say where a flag replaces the correction of the clock in the file.
+    pub(crate) replaced_correction: Option<Notice>,
 }
 
 impl ExperimentSource {
@@ -83,8 +85,25 @@ impl ExperimentSource {
             experiment,
             typed: None,
             wording: Wording::of_experiment(is_flight),
+            replaced_correction: None,
             path,
         })
+    }
+
+    /// The same with the correction of the clock that a flag gives: it replaces the one in the file.
+    pub(crate) fn with_correction(mut self, flag_ppm: Option<f64>) -> Self {
+        let Some(flag_ppm) = flag_ppm else { return self };
+        let file_ppm = self.experiment.clock_correction_ppm;
+        if file_ppm != 0.0 && file_ppm != flag_ppm {
+            self.replaced_correction = Some(Notice::new(
+                format!(
+                    "--clock-correction-ppm {flag_ppm} is used, and clock_correction_ppm = {file_ppm} of the experiment file is not"
+                ),
+                "leave the flag out to use the correction in the file",
+            ));
+        }
+        self.experiment.clock_correction_ppm = flag_ppm;
+        self
     }
 }
 

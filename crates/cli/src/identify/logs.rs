@@ -4,12 +4,12 @@ use super::recordings::LogFile;
 use crate::failure::Failure;
 use crate::files::sha256_of_file;
 use crate::labels::{labels_of_record, logs_of_motors};
-use crate::log::{column_names, loss_notice};
+use crate::log::{column_names, electrical_in_words, loss_notice};
 use crate::motor::{flight_of, motors_of_log};
 use crate::recording::Job;
 use crate::verify::verification_of;
 use hovertone::rotors::{FlightLog, LabelsConfig, LoggedSpeeds, NotVerified};
-use hovertone_logs::LoggedFlight;
+use hovertone_logs::{ElectricalColumn, LoggedFlight};
 use hovertone_report::{FlightLogRecord, Notice, SpeedRecord};
 
 /// A log that was read.
@@ -28,7 +28,7 @@ impl FlownLog {
         let refused = |what: &str, hint: &str| Failure::failed(what, hint, path);
         let flight = flight_of(path, &column_names(&[])?)?
             .ok_or_else(|| refused("this is no log", "name the log of the flight, as in log = \"a.ulg\""))?;
-        let signals = logs_of_motors(flight.speeds_rev_s.clone(), flight.commands.clone(), path)?;
+        let signals = logs_of_motors(&flight, path)?;
         if signals.is_empty() {
             let hint = "in a CSV, name these columns rotor1_rpm or motor1_pwm, and so on; else log the speeds that the ESCs \
                         report (telemetry), or the motor commands. Without a log, write the name of the recording alone";
@@ -37,6 +37,17 @@ impl FlownLog {
         let sha256 = wants_hash.then(|| sha256_of_file(path)).transpose();
         let sha256 = sha256.map_err(|error| refused(&format!("the log cannot be read: {error}"), "check the disk"))?;
         Ok(Self { sha256, flight, signals, file })
+    }
+
+    /// That the log has electrical speeds in place of rotor speeds.
+    fn electrical_notice(&self) -> Option<Notice> {
+        let electrical = self.flight.electrical.as_ref().filter(|_| self.flight.speeds_rev_s.is_none())?;
+        let ElectricalColumn { header, name_with_poles } = electrical.columns.first()?;
+        let hint = format!(
+            "count the magnets in the bell of a motor, and write their number into the headers of the CSV. For 14 magnets, as in most motors, \
+             write {name_with_poles} in place of {header}, and so on"
+        );
+        Some(Notice::new(electrical_in_words(&electrical.columns)?, hint))
     }
 
     /// Compares the log with its recording, whose record gets the warnings that follow.
@@ -51,7 +62,7 @@ impl FlownLog {
             _ => Ok(None),
         };
         let (verification, not_verified) = match verification {
-            Ok(verification) => (verification, None),
+            Ok(verification) => (verification, self.electrical_notice().filter(|_| has_tone)),
             Err(reason) => (None, Some(Notice::new(reason.to_string(), hint_of(reason)))),
         };
         let near = verification.as_ref().filter(|found| found.is_offset_told).map(|found| found.offset_s);

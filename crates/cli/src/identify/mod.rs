@@ -43,6 +43,7 @@ pub(crate) struct Identified {
 /// Identifies the experiment and prints warnings, the tables where they are wanted, and the lines to quote.
 pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let source = source_of(arguments)?;
+    source.replaced_correction.iter().for_each(|notice| terminal.tip(notice));
     if arguments.check {
         return check::run(&source, arguments, terminal);
     }
@@ -84,9 +85,10 @@ pub(crate) fn called(arguments: &IdentifyArguments) -> Result<Reported, Failure>
 }
 
 fn source_of(arguments: &IdentifyArguments) -> Result<ExperimentSource, Failure> {
+    let clock_correction_ppm = arguments.hearing.clock_correction_ppm;
     match &arguments.experiment {
-        Some(path) => ExperimentSource::read(path),
-        None => TypedExperiment::from_arguments(&arguments.draft)?.source(),
+        Some(path) => Ok(ExperimentSource::read(path)?.with_correction(clock_correction_ppm)),
+        None => TypedExperiment::from_arguments(&arguments.draft, clock_correction_ppm)?.source(),
     }
 }
 
@@ -160,7 +162,7 @@ pub(crate) fn page_line(page: &Path) -> String {
 }
 
 fn hearing_of(arguments: &HearingArguments, experiment: &Experiment, wants_hash: bool) -> Hearing {
-    let clock_correction_ppm = arguments.clock_correction_ppm.unwrap_or(experiment.clock_correction_ppm);
+    let clock_correction_ppm = experiment.clock_correction_ppm;
     Hearing { clock_correction_ppm, wants_hash, wants_samples: true, ..Hearing::of(arguments) }
 }
 

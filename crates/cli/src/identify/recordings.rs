@@ -9,11 +9,13 @@ use crate::recording::{Job, Requests};
 use crate::recording_files::{RecordingGroup, groups_below, groups_in};
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use hovertone::experiment::ExperimentLoad;
-use hovertone_report::counted;
+use hovertone_report::{Notice, counted};
 use std::path::{Path, PathBuf};
 
 /// Most names in the list of missing recordings.
 const NAMES_MAX: usize = 3;
+const HINT_OF_LOG: &str =
+    "correct the name of the log, or put the log there; without a log, write the name of the recording alone";
 
 /// A recording of a load.
 pub(crate) struct LoadJob {
@@ -36,6 +38,41 @@ pub(crate) struct LogFile {
 pub(super) struct Missing<'a> {
     pub(super) load: &'a ExperimentLoad,
     pub(super) name: &'a str,
+    /// Whether it names the log of a recording.
+    pub(super) is_log: bool,
+}
+
+impl Missing<'_> {
+    /// That the file is missing, and what to do.
+    pub(super) fn notice(&self, root: &Path) -> Notice {
+        let Self { load, name, is_log } = self;
+        let place = place_of(name, root);
+        if *is_log {
+            let what = format!("the log {name} of load \"{}\" is not there: {}", load.name, why_no_log(&place));
+            return Notice::new(what, HINT_OF_LOG);
+        }
+        if let Some(folder) = closed_folder(&place) {
+            return Notice::new(format!("{}: {CLOSED_FOLDER}", folder.display()), GET_RIGHT);
+        }
+        if let Some(folder) = folder_without_recordings(&place) {
+            return Notice::new(format!("{}: {}", folder.path.display(), folder.what), folder.hint);
+        }
+        let nearby = nearby(&place).map_or(String::new(), |nearby| format!("; {nearby}"));
+        let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
+        Notice::new(what, "correct the name, or put the file there")
+    }
+}
+
+/// What stands in the place of a log that is missing.
+fn why_no_log(place: &Path) -> String {
+    if place.is_dir() {
+        return "this is the name of a folder".to_owned();
+    }
+    match place.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) if folder.is_dir() => format!("the folder {} has no file of this name", folder.display()),
+        Some(folder) => format!("there is no folder {}", folder.display()),
+        None => "the folder of the experiment file has no file of this name".to_owned(),
+    }
 }
 
 /// The recordings of an experiment, and the names without a file.
@@ -49,7 +86,11 @@ pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
     let FoundRecordings { mut jobs, missing } = found_recordings(source, data_root)?;
     if !missing.is_empty() {
         let root = data_root.unwrap_or(&source.folder);
-        return Err(missing_failure(&missing, source, root, data_root.is_some()));
+        let (logs, recordings): (Vec<_>, Vec<_>) = missing.into_iter().partition(|missing| missing.is_log);
+        return Err(match logs.first().filter(|_| recordings.is_empty()) {
+            Some(log) => missing_log(log, logs.len(), source, root),
+            None => missing_failure(&recordings, source, root, data_root.is_some()),
+        });
     }
     refuse_twice(&mut jobs, source)?;
     Ok(jobs)
@@ -85,7 +126,7 @@ pub(super) fn found_recordings<'a>(
                 false => files_at(&place_of(name, root)),
             };
             if files.is_empty() {
-                missing.push(Missing { load, name });
+                missing.push(Missing { load, name, is_log: false });
             }
             if recording.log().is_some() && files.len() > 1 {
                 return Err(several_with_one_log(name, files.len(), source));
@@ -94,7 +135,7 @@ pub(super) fn found_recordings<'a>(
             if let (Some(log), Some(name)) = (&log, recording.log())
                 && !log.path.is_file()
             {
-                missing.push(Missing { load, name });
+                missing.push(Missing { load, name, is_log: true });
             }
             for path in files {
                 let job = Job {
@@ -137,13 +178,23 @@ fn files_at(place: &Path) -> Vec<PathBuf> {
 }
 
 /// The place that a name or pattern means, from the folder of the recordings.
-pub(super) fn place_of(name: &str, root: &Path) -> PathBuf {
+fn place_of(name: &str, root: &Path) -> PathBuf {
     root.join(home_expanded(Path::new(name)))
 }
 
 /// Name of a recording relative to the folder, with forward slashes on all systems.
 fn name_of(path: &Path, root: &Path) -> String {
     path.strip_prefix(root).unwrap_or(path).display().to_string().replace('\\', "/")
+}
+
+/// The failure of an experiment with all recordings, and without all logs.
+fn missing_log(log: &Missing<'_>, count: usize, source: &ExperimentSource, root: &Path) -> Failure {
+    let Notice { text, hint, .. } = log.notice(root);
+    let more = match count {
+        1 => String::new(),
+        count => format!("; {} more (--check lists all)", counted(count - 1, "missing log")),
+    };
+    Failure::failed(format!("{text}{more}"), hint, &source.path)
 }
 
 fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Path, is_root_given: bool) -> Failure {
@@ -153,7 +204,7 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
     if let Some(folder) = missing.iter().find_map(|missing| folder_without_recordings(&place_of(missing.name, root))) {
         return Failure::failed(folder.what, folder.hint, &folder.path);
     }
-    let listed = missing.iter().take(NAMES_MAX).map(|Missing { load, name }| {
+    let listed = missing.iter().take(NAMES_MAX).map(|Missing { load, name, .. }| {
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!(" ({nearby})"));
         format!("{name} of load \"{}\"{nearby}", load.name)
     });
@@ -187,14 +238,14 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
 }
 
 /// A folder that is named in place of its recordings and holds none.
-pub(super) struct EmptyFolder {
-    pub(super) path: PathBuf,
-    pub(super) what: &'static str,
-    pub(super) hint: String,
+struct EmptyFolder {
+    path: PathBuf,
+    what: &'static str,
+    hint: String,
 }
 
 /// What to say of a folder that holds no recording itself: the folders below it that do.
-pub(super) fn folder_without_recordings(place: &Path) -> Option<EmptyFolder> {
+fn folder_without_recordings(place: &Path) -> Option<EmptyFolder> {
     let is_named = place.is_dir() && groups_in(place).is_empty();
     let below = is_named.then(|| groups_below(place))?;
     let shown: Vec<String> = below.iter().take(NAMES_MAX).map(in_words).collect();
@@ -211,7 +262,7 @@ fn in_words(group: &RecordingGroup) -> String {
 }
 
 /// What is in the folder of a pattern that matches nothing: often the ending of the recordings is spelled otherwise, or there is no such folder.
-pub(super) fn nearby(pattern: &Path) -> Option<String> {
+fn nearby(pattern: &Path) -> Option<String> {
     if let Some(folder) = missing_folder(pattern) {
         return Some(format!("there is no folder {}", folder.display()));
     }

@@ -23,9 +23,12 @@ pub(crate) struct TypedExperiment {
 
 impl TypedExperiment {
     /// What the arguments describe. Recordings count from the current folder.
-    pub(crate) fn from_arguments(arguments: &DraftArguments) -> Result<Self, Failure> {
+    pub(crate) fn from_arguments(
+        arguments: &DraftArguments,
+        clock_correction_ppm: Option<f64>,
+    ) -> Result<Self, Failure> {
         let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
-        let draft = Draft::from_arguments(arguments, vehicle)?;
+        let draft = Draft { clock_correction_ppm, ..Draft::from_arguments(arguments, vehicle)? };
         let missing = draft.missing(vehicle);
         if missing.is_empty() {
             return Ok(Self { draft, vehicle });

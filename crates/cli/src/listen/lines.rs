@@ -7,7 +7,7 @@ use hovertone::live::{Listener, LiveSpeed, LiveStatus, PossibleSpeed};
 use hovertone_workflow::{LiveLine, live_remark, live_status_in_words, live_words, possible_speeds_in_words};
 
 /// Live speeds of one second, of which a line of text tells the last.
-const SPEEDS_PER_LINE: usize = 10;
+pub(super) const SPEEDS_PER_SECOND: usize = 10;
 /// Names of the columns, above the first line.
 const HEAD: &str = "      time       level  mean speed of the rotors (±: k = 2; level 0 dB: full scale)\n";
 
@@ -36,7 +36,7 @@ impl PlainLines {
         if !listener.possible().is_empty() {
             self.last_possible = listener.possible().to_vec();
         }
-        if !self.count.is_multiple_of(SPEEDS_PER_LINE) {
+        if !self.count.is_multiple_of(SPEEDS_PER_SECOND) {
             return None;
         }
         let status = live_status_in_words(speed.status, &self.advice.naming(&live_remark(listener)));
@@ -52,7 +52,7 @@ impl PlainLines {
         let words =
             words.iter().filter(|words| !words.is_empty()).map(String::as_str).collect::<Vec<_>>().join(separator);
         let clipping = if speed.clipped_share > 0.0 { ", too loud" } else { "" };
-        let head = if self.count == SPEEDS_PER_LINE { HEAD } else { "" };
+        let head = if self.count == SPEEDS_PER_SECOND { HEAD } else { "" };
         let level = level_in_words(speed.level_db, 1);
         let line = format!("{:8.1} s  {level:>10}{clipping}  {words}\n", speed.time_s);
         Some(format!("{head}{line}"))

@@ -1,6 +1,7 @@
 //! All live speeds in one sentence.
 
 use crate::listen::advice::Advice;
+use crate::listen::lines::SPEEDS_PER_SECOND;
 use hovertone::live::{LiveSpeed, LiveStatus};
 use hovertone::speed::{OtherRotor, Warning};
 use hovertone_report::{fixed, with_uncertainty};
@@ -27,9 +28,29 @@ pub(crate) struct LiveSummary {
     is_last_ambiguous: bool,
     sum_rev_s: f64,
     sum_std_rev_s: f64,
-    /// Slowest and fastest.
-    range_rev_s: Option<(f64, f64)>,
+    /// Slowest and fastest of the single speeds.
+    range_rev_s: Option<Range>,
+    /// The single speeds since the last second that is complete.
+    of_second_rev_s: Vec<f64>,
+    /// Slowest and fastest mean of a second: a jump for a moment is no change of the speed.
+    range_of_seconds_rev_s: Option<Range>,
     end_s: f64,
+}
+
+/// The slowest and the fastest of some speeds.
+#[derive(Clone, Copy, Debug)]
+struct Range {
+    slowest_rev_s: f64,
+    fastest_rev_s: f64,
+}
+
+impl Range {
+    /// The range of all speeds of `before` and one more.
+    fn with(before: Option<Self>, speed_rev_s: f64) -> Self {
+        let Self { slowest_rev_s, fastest_rev_s } =
+            before.unwrap_or(Self { slowest_rev_s: speed_rev_s, fastest_rev_s: speed_rev_s });
+        Self { slowest_rev_s: slowest_rev_s.min(speed_rev_s), fastest_rev_s: fastest_rev_s.max(speed_rev_s) }
+    }
 }
 
 impl LiveSummary {
@@ -54,8 +75,7 @@ impl LiveSummary {
                 self.is_last_ambiguous = false;
                 self.sum_rev_s += speed_rev_s;
                 self.sum_std_rev_s += std_rev_s;
-                let (slowest, fastest) = self.range_rev_s.unwrap_or((speed_rev_s, speed_rev_s));
-                self.range_rev_s = Some((slowest.min(speed_rev_s), fastest.max(speed_rev_s)));
+                self.add_to_ranges(speed_rev_s);
             }
             (LiveStatus::Ambiguous, ..) => {
                 self.ambiguous_count += 1;
@@ -64,6 +84,21 @@ impl LiveSummary {
             (LiveStatus::Listening, ..) => self.listening_count += 1,
             _ => {}
         }
+    }
+
+    fn add_to_ranges(&mut self, speed_rev_s: f64) {
+        self.range_rev_s = Some(Range::with(self.range_rev_s, speed_rev_s));
+        self.of_second_rev_s.push(speed_rev_s);
+        if self.of_second_rev_s.len() == SPEEDS_PER_SECOND {
+            let mean_rev_s = self.of_second_rev_s.iter().sum::<f64>() / SPEEDS_PER_SECOND as f64;
+            self.range_of_seconds_rev_s = Some(Range::with(self.range_of_seconds_rev_s, mean_rev_s));
+            self.of_second_rev_s.clear();
+        }
+    }
+
+    /// The slowest and the fastest second; of less than a second, the slowest and the fastest single speed.
+    fn range(&self) -> Option<Range> {
+        self.range_of_seconds_rev_s.or(self.range_rev_s)
     }
 
     /// Whether the mean is that of a rotor as given: one speed was clear, and the sound does not contradict the given facts.
@@ -92,7 +127,7 @@ impl LiveSummary {
 
     /// Whether the single speeds are not those of one hover.
     fn has_changed(&self) -> bool {
-        self.range_rev_s.is_some_and(|(slowest_rev_s, fastest_rev_s)| fastest_rev_s > ONE_HOVER_FACTOR * slowest_rev_s)
+        self.range().is_some_and(|range| range.fastest_rev_s > ONE_HOVER_FACTOR * range.slowest_rev_s)
     }
 
     /// That the sound contradicts the given facts, where it does so for half of the single speeds or more.
@@ -113,8 +148,8 @@ impl LiveSummary {
             return None;
         }
         let end_s = fixed(self.end_s, 1);
-        let mut words = match self.range_rev_s {
-            Some((slowest_rev_s, fastest_rev_s)) if self.is_clear() => self.mean_in_words(slowest_rev_s, fastest_rev_s),
+        let mut words = match self.range() {
+            Some(range) if self.is_clear() => self.mean_in_words(range),
             Some(_) => {
                 format!(
                     "no mean: one speed was clear in only {} s of {end_s} s",
@@ -148,10 +183,10 @@ impl LiveSummary {
     }
 
     /// The mean of the single speeds, or that they are not those of one hover.
-    fn mean_in_words(&self, slowest_rev_s: f64, fastest_rev_s: f64) -> String {
+    fn mean_in_words(&self, range: Range) -> String {
         let (heard_s, end_s) = (fixed(self.part_s(self.settled_count), 1), fixed(self.end_s, 1));
         if self.has_changed() {
-            let (slowest, fastest) = (fixed(slowest_rev_s, 1), fixed(fastest_rev_s, 1));
+            let (slowest, fastest) = (fixed(range.slowest_rev_s, 1), fixed(range.fastest_rev_s, 1));
             return format!(
                 "no mean: the speed changed between {slowest} and {fastest} rev/s; a speed was heard in {heard_s} s of {end_s} s"
             );
@@ -213,6 +248,17 @@ mod tests {
         (speeds[0].speed_rev_s, speeds[1].speed_rev_s) = (Some(52.8), Some(91.8));
         let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s; a speed was heard in 0.3 s of 0.3 s\n";
         assert_eq!(summary_of(&speeds).in_words(&advice()).unwrap(), changed);
+        // a jump for two moments is no change, a second at another speed is one
+        let mut speeds = speeds_of(&[(Ok, 40)]);
+        (speeds[6].speed_rev_s, speeds[31].speed_rev_s) = (Some(53.0), Some(66.0));
+        assert!(summary_of(&speeds).in_words(&advice()).unwrap().starts_with("mean: 59.9"));
+        speeds[10..20].iter_mut().for_each(|speed| speed.speed_rev_s = Some(66.0));
+        assert!(
+            summary_of(&speeds)
+                .in_words(&advice())
+                .unwrap()
+                .starts_with("no mean: the speed changed between 59.3 and 66.0")
+        );
         assert_eq!(told(&[(NoRotorTone, 20)]), "no speed was heard in 2.0 s\n");
         assert_eq!(summary_of(&[]).in_words(&advice()), None);
     }

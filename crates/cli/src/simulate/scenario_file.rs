@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 
 const SEE_EXAMPLE: &str = "`hovertone simulate --help` shows a scenario file, docs/formats.md lists all keys";
 
+const SEE_SCENARIO: &str = "give the TOML file; `hovertone simulate --help` shows a scenario file";
+
 /// A scenario file that was read and resolved.
 pub(crate) struct ScenarioSource {
     /// Path of the file.
@@ -31,6 +33,10 @@ impl ScenarioSource {
     /// Reads and resolves a scenario file; `seed` replaces its own seed.
     pub(crate) fn read(path: &Path, seed: Option<u64>) -> Result<Self, Failure> {
         let toml = TomlFile::read(path, "scenario file", NO_RECORDING, SEE_EXAMPLE)?;
+        if let Some((found, hint)) = other_format(&toml.text) {
+            let what = format!("this file is {found}, so it cannot be the scenario file");
+            return Err(Failure::failed(what, hint, path));
+        }
         let mut file: ScenarioFile = toml.parse()?;
         file.seed = seed.unwrap_or(file.seed);
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -92,6 +98,27 @@ impl ScenarioSource {
         };
         Failure::Usage { what, hint, path: Some(self.path.clone()) }
     }
+}
+
+/// What a text is that is no TOML, and what to do.
+fn other_format(text: &str) -> Option<(&'static str, &'static str)> {
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let first = lines.next()?.trim_start_matches('\u{feff}');
+    if first.starts_with('<') {
+        let models = [
+            ("<sdf", "a simulator's model (SDF)"),
+            ("<robot", "a simulator's model (URDF)"),
+            ("<mujoco", "a simulator's model (MJCF)"),
+        ];
+        let found = models.iter().find(|(tag, _)| text.contains(tag)).map_or("XML", |(_, model)| model);
+        return Some((found, SEE_SCENARIO));
+    }
+    // a line of TOML without a value names a section
+    let is_table = first.contains([',', ';', '\t']) && !first.contains('=') && !first.starts_with('[');
+    is_table.then_some((
+        "a table (CSV)",
+        "give the TOML file; a table of commands is named there: file = \"commands.csv\" under [[maneuver]] with kind = \"csv\"",
+    ))
 }
 
 fn failure_of(error: &ScenarioError, path: &Path) -> Failure {

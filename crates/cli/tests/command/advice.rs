@@ -96,7 +96,12 @@ fn numbers_and_words_of_other_programs_are_told_as_this_one_takes_them() {
         ("speed a.wav --diameter-m 0,2", ["the decimal sign is a point", "write 0.2"]),
         ("calibrate a.wav --tachometer-rpm 62,08", ["the decimal sign is a point", "write 62.08"]),
         ("fit --plan --mass-kg 413g --wanted-share 3%", ["without a percent sign", "write 0.03"]),
-        ("speed a.wav --blades 2 --clock-correction-ppm 5%", ["millionths without a percent sign", "1 % is 10000"]),
+        ("speed a.wav --blades 2 --clock-correction-ppm 5%", ["without a percent sign", "1 % is 10000 ppm"]),
+        (
+            "weigh a.wav --constant-n-s2 2e-5 --constant-std-n-s2 0.5%",
+            ["a number without a percent sign", "0.5 % of 2e-5 is 1.00e-7"],
+        ),
+        ("speed a.wav --diameter-m 3%", ["a number without a percent sign", "give it in m"]),
         ("speed a.wav --blades 2,0", ["must be a whole number", "--blades 2"]),
         ("speed -blades 2 a.wav", ["there is no flag -b", "two dashes: write --blades"]),
         ("speed a.wav -o x.json", ["there is no flag -o", "the results go to stdout"]),

@@ -47,6 +47,9 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     let flag = format!("{ppm:.1}");
     let passed = calibrated(&sound, &["--vehicle", "crazyflie", "--clock-correction-ppm", &flag]).ends_with(0);
     assert!(passed.stdout.ends_with("\nresult: pass\n"), "{}", passed.stdout);
+    let flag_ppm: f64 = flag.parse().unwrap();
+    let keep = format!("correction of the clock: keep --clock-correction-ppm {flag_ppm}, because");
+    assert!(passed.stdout.contains(&keep), "{}", passed.stdout);
     // the correction is a flag of every command that hears, and a setting of an experiment
     let rpm = |words: &[&str]| {
         let run =
@@ -65,6 +68,23 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     };
     let ratio = identified(&format!("[recorder]\nclock_correction_ppm = {flag}\n")) / identified("");
     assert!((1e6 * (ratio - 1.0) - ppm).abs() < 1.0, "{ratio}");
+    // a flag that replaces the correction of the file is said, and the results hold the one that was used
+    let replaced = hovertone(&["identify", "--json", text(&experiment), "--clock-correction-ppm", &flag]).ends_with(0);
+    assert!(!replaced.stderr.contains("is used, and clock_correction_ppm"), "{}", replaced.stderr);
+    identified("[recorder]\nclock_correction_ppm = 7.0\n");
+    let replaced = hovertone(&["identify", "--json", text(&experiment), "--clock-correction-ppm", &flag]).ends_with(0);
+    assert!(replaced.stderr.contains("is used, and clock_correction_ppm = 7 of the"), "{}", replaced.stderr);
+    let results: serde_json::Value = serde_json::from_str(&replaced.stdout).unwrap();
+    let used_ppm = results["settings"]["experiment"]["clock_correction_ppm"].as_f64().unwrap();
+    assert_eq!(used_ppm, flag.parse::<f64>().unwrap());
+    // without a file: the one that is written has it
+    let out = folder.path().join("out");
+    let mass = format!("0.03={}", text(&sound));
+    let typed =
+        ["identify", "--vehicle", "crazyflie", "--mass", &mass, "--clock-correction-ppm", &flag, "-o", text(&out)];
+    hovertone(&typed);
+    let written = fs::read_to_string(out.join("experiment.toml")).unwrap();
+    assert!(written.contains(&format!("[recorder]\nclock_correction_ppm = {flag_ppm} ")), "{written}");
 }
 
 #[test]

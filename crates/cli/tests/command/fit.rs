@@ -102,7 +102,7 @@ fn bad_tables_are_refused_or_flagged() {
         ("rpm,mass_g\n3600,0\n", &["line 2", "above 0", "table.csv"][..]),
         ("rpm,mass_g\n3600,-413\n", &["line 2", "above 0"]),
         ("rpm,mass_g\n3600,NaN\n", &["line 2", "no number"]),
-        ("rpm,volts\n3600,11\n", &["rpm, volts", "--help"]),
+        ("rpm,volts\n3600,11\n", &["rpm, volts", "docs/formats.md lists the words"]),
         ("rpm,thrust_n\n0,1\n", &["nothing to fit"]),
         ("rpm,mass_g\n3600,413\n", &["at least 3 usable rows", "has 1", "mass_std_g"]),
         ("rpm,mass_g\n3600,413\n3700,1744\n", &["at least 3 usable rows", "has 2", "mass_std_g"]),
@@ -211,6 +211,11 @@ fn a_plan_tells_before_flying() {
     let plan: Value = serde_json::from_str(&apart).unwrap();
     assert!(number(&plan, "/expanded_share") <= 0.01 && number(&plan, "/load_count") >= 3.0);
     hovertone(&["fit", "--plan"]).ends_with(2);
+    // grams as kilograms, and what no share allows
+    let in_grams = hovertone(&["fit", "--plan", "--mass-kg", "0.413", "--mass-std-kg", "0.5"]).ends_with(2).stderr;
+    assert!(in_grams.contains("mass_std_kg = 0.5") && in_grams.contains("for 0.5 g write 0.0005"), "{in_grams}");
+    let vague = hovertone(&["fit", "--plan", "--mass-kg", "0.413", "--mass-std-kg", "0.2"]).ends_with(2).stderr;
+    assert!(vague.contains("stays above") && !vague.contains("larger --wanted-share"), "{vague}");
     for (flag, value) in
         [("--mass-std-kg", "nan"), ("--mass-std-kg", "-1"), ("--diameter-m", "nan"), ("--wanted-share", "inf")]
     {
@@ -250,4 +255,84 @@ fn a_bad_table_does_not_hide_the_others() {
     let document: Value = serde_json::from_str(&json.stdout).unwrap();
     assert!(document["file"].as_str().unwrap().ends_with("good.csv"), "{document}");
     assert!(hovertone(&["fit", text(&bad), text(&bad), "--json"]).ends_with(1).stdout.is_empty());
+}
+
+/// A header of an uncertainty says how large it is: the same numbers give half or a third of the ±.
+#[test]
+fn uncertainties_are_read_as_their_headers_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv");
+    let run = |header: &[u8]| {
+        let rows = b"3000,0.70,0.02\n4000,1.25,0.02\n5000,1.94,0.02\n6000,2.81,0.02\n";
+        fs::write(&path, [&b"rpm,thrust_n,"[..], header, b"\n", rows].concat()).unwrap();
+        hovertone(&["fit", text(&path), "--json"]).ends_with(0).json_lines().remove(0)
+    };
+    let std = |fit: &Value| number(fit, "/thrust_constant_total_n_s2/std_uncertainty");
+    let of_std = std(&run(b"thrust_std_n"));
+    for (header, factor) in [
+        (&b"thrust_uncertainty_k=3_n"[..], 3.0),
+        (b"thrust_uncertainty_95%_n", 2.0),
+        ("±thrust_n".as_bytes(), 2.0),
+        // ± in Latin-1
+        (b"\xb1thrust_n", 2.0),
+    ] {
+        let fit = run(header);
+        assert_eq!(fit["force_column"], "thrust_n");
+        assert!((std(&fit) * factor / of_std - 1.0).abs() < 1e-9, "{}", fit["notices"]);
+        let said = format!("so its numbers are divided by {factor}");
+        assert!(fit["notices"].to_string().contains(&said), "{}", fit["notices"]);
+    }
+    let unused = run(b"thrust_error_n")["notices"].to_string();
+    assert!(unused.contains("thrust_error_n") && unused.contains("write std into its name"), "{unused}");
+}
+
+#[test]
+fn a_table_without_uncertainties_is_judged_by_its_scatter() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv");
+    let rows = "3600,1\n3620,1.012\n3640,1.021\n3660,1.036\n3680,1.044\n";
+    let said = |header: &str, rows: &str| {
+        fs::write(&path, format!("{header}\n{rows}")).unwrap();
+        hovertone(&["fit", text(&path)]).ends_with(0)
+    };
+    let run = said("rpm,thrust_n", rows);
+    assert!(run.stderr.contains("but with as much scatter as in these rows"), "{}", run.stderr);
+    let zeros = said("rpm,thrust_n,thrust_std_n", "3000,0.7,0\n4000,1.25,0\n5000,1.94,0\n").stderr;
+    assert!(zeros.contains("no row has an uncertainty above 0: the ± comes from"), "{zeros}");
+    let copied = said("rpm,thrust_n", &"3000,0.7\n4000,1.25\n5000,1.94\n6000,2.81\n".repeat(10)).stderr;
+    assert!(copied.contains("36 of 40 rows are exact copies of other rows"), "{copied}");
+}
+
+/// The tips of small racing propellers come near the limit, and C_f needs no diameter.
+#[test]
+fn tips_that_are_too_fast_leave_a_way_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("racing.csv");
+    fs::write(&path, "rpm,thrust_n\n16000,3.0\n24000,6.8\n32000,12.1\n").unwrap();
+    let refused = hovertone(&["fit", text(&path), "--diameter-m", "5in"]).ends_with(2).stderr;
+    assert!(refused.contains("Mach 0.62") && refused.contains("leave --diameter-m out"), "{refused}");
+    hovertone(&["fit", text(&path)]).ends_with(0);
+}
+
+/// Two groups of a stand whose forces are too alike in one, and prefer no law in the other.
+#[test]
+fn real_stands_are_told_what_they_have() {
+    let Some(data) = recordings("thrust-stands") else { return };
+    let groups = hovertone(&["fit", text(&data.join("ctu_mrs_motor_tests.csv")), "--diameter-m", "10in"]).ends_with(0);
+    assert!(groups.stderr.contains("with as much scatter as in these rows"), "{}", groups.stderr);
+    assert!(!groups.stderr.contains("speeds as uncertain"), "{}", groups.stderr);
+    let unpreferred = groups.stdout.matches("none is preferred").count();
+    assert!(unpreferred > 1, "{}", groups.stdout);
+    assert_eq!(
+        groups.stdout.matches("C_f is the constant of the law F = C ω²").count(),
+        unpreferred,
+        "{}",
+        groups.stdout
+    );
+    let small = data.join("rcbenchmark1520_m8_11.csv");
+    let low = hovertone(&["fit", text(&small), "--diameter-m", "8in", "--height-m", "0"]).stderr;
+    assert!(
+        low.contains("and no propeller has that") && low.contains("pole pairs") && !low.contains("blades"),
+        "{low}"
+    );
 }

@@ -116,7 +116,23 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
     let rows = |time_s: i32| format!("{time_s}{}\n", format!(",{}", 1500 + 10 * time_s).repeat(8));
     fs::write(folder.join("eight.csv"), format!("time_s{motors}\n{}", (0..12).map(rows).collect::<String>())).unwrap();
     let run = hovertone(&["identify", &experiment(folder, &flown, &with_log(&flown.sound, "eight.csv"))]);
-    assert!(run.stderr.contains("eight.csv is not used: it has no speeds of these motors"), "{}", run.stderr);
+    let unused = "eight.csv is not used: it has no rotor speed, and it cannot tell which rotor is which: the log has 8 motors, but the vehicle \
+                  has 4 rotors";
+    assert!(run.stderr.contains(unused), "{}", run.stderr);
+
+    // electrical speeds name the rotors, but are not compared
+    let half = fs::read_to_string(folder.join("half.csv")).unwrap();
+    fs::write(folder.join("erpm.csv"), half.replace("_rpm", "_erpm")).unwrap();
+    let file = experiment(folder, &flown, &with_log(&flown.sound, "erpm.csv"));
+    let run = hovertone(&["identify", &file, "-o", text(&folder.join("electrical"))]);
+    let said =
+        "the sound was not compared with erpm.csv: the columns rotor1_erpm to rotor4_erpm have electrical speeds";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
+    assert!(run.stderr.contains("write rotor1_erpm_14_poles in place of rotor1_erpm"), "{}", run.stderr);
+    let results: Value =
+        serde_json::from_str(&fs::read_to_string(folder.join("electrical/results.json")).unwrap()).unwrap();
+    let log = &results["inputs"][0]["log"];
+    assert!(log["order_check"].is_null() && log["rotors"][0]["motor"].is_string(), "{log}");
 
     // without a log nothing of it is said
     let name = format!("\"flown/{}\"", flown.sound.file_name().unwrap().to_str().unwrap());
@@ -131,7 +147,15 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
         words.iter().for_each(|words| assert!(run.stderr.contains(words), "{words}: {}", run.stderr));
     };
     refused("{ file = \"flown/*.wav\", log = \"half.csv\" }", 2, &["a log belongs to one flight", "2 recordings"]);
-    refused(&with_log(&flown.sound, "nowhere.ulg"), 1, &["nowhere.ulg of load \"bare\""]);
+    refused(
+        &with_log(&flown.sound, "nowhere.ulg"),
+        1,
+        &["the log nowhere.ulg of load \"bare\" is not there: the folder "],
+    );
+    let file = experiment(folder, &flown, &with_log(&flown.sound, "nowhere.ulg"));
+    let run = hovertone(&["identify", &file, "--check"]).ends_with(1);
+    assert!(run.stderr.contains("the log nowhere.ulg of load \"bare\" is not there: the folder "), "{}", run.stderr);
+    assert!(run.stderr.contains("put the log there") && !run.stderr.contains(".wav ("), "{}", run.stderr);
     refused("{ file = \"a.wav\", lgo = \"half.csv\" }", 2, &["unknown key \"lgo\"", "did you mean \"log\""]);
     refused("{ file = \"a.wav\" }", 2, &["lacks \"log\""]);
     refused("3", 2, &["has 3 where text in quotes is needed"]);

@@ -48,6 +48,12 @@ fn a_log_with_speeds_tells_a_model_that_can_be_flown_and_predicts_another_flight
     assert!(fly.stdout.contains("ardrone"), "{}", fly.stdout);
     let words = hovertone(&[&["greybox", &log], &common[..]].concat()).ends_with(0).stdout;
     assert!(words.contains("k_p") && words.contains("not used for the fit") && words.contains("C_τ"), "{words}");
+    // the numbers that are counted as not shown are named
+    let shown = words.lines().find(|line| line.starts_with("the flight shows ")).unwrap_or_default();
+    let told = line["parameters"].as_array().unwrap().iter().filter(|parameter| parameter["is_told"] == true).count();
+    let (counts, named) = shown.split_once(" of the model, all but ").unwrap_or_default();
+    assert_eq!(counts, format!("the flight shows {told} of the 23 numbers"), "{shown}");
+    assert_eq!(named.matches("the ").count(), 23 - told, "{shown}");
 }
 
 #[test]

@@ -90,6 +90,32 @@ fn rotors_are_named_by_rates_and_by_speeds_and_by_neither() {
     assert!(table.contains("rotor 1, the fastest") && table.contains("once per turn"), "{table}");
 }
 
+/// Only a CSV of body rates needs --log-axes, so only there the axes may be wrong.
+#[test]
+fn a_log_of_another_flight_asks_for_its_axes_only_where_a_flag_gives_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, ..) = flown(folder.path());
+    let log = folder.path().join("log.csv");
+    let warned = |names: &[&str], size: f64, level: f64, more: &[&str]| {
+        let row = |row: u32| {
+            let value = |at: usize| level + size * (0.9 * f64::from(row) * (at + 1) as f64).sin();
+            let cells: String = (0..names.len()).map(|at| format!(",{}", value(at))).collect();
+            format!("\n{}{cells}", 0.05 * f64::from(row))
+        };
+        let rows: String = (0..120).map(row).collect();
+        fs::write(&log, format!("time_s,{}{rows}", names.join(","))).unwrap();
+        let run = ["speed", "--vehicle", "ardrone", text(&sound), "--log", text(&log)];
+        hovertone(&[&run[..], more].concat()).ends_with(3).stderr
+    };
+    let speeds = ["motor1_rad_s", "motor2_rad_s", "motor3_rad_s", "motor4_rad_s"];
+    let rates = ["gyro_x_rad_s", "gyro_y_rad_s", "gyro_z_rad_s"];
+    let said = "the log does not fit the speeds of the rotors";
+    let of_speeds = warned(&speeds, 4.0, 377.0, &[]);
+    assert!(of_speeds.contains(said) && !of_speeds.contains("--log-axes"), "{of_speeds}");
+    let of_rates = warned(&rates, 0.5, 0.0, &["--log-axes", "flu"]);
+    assert!(of_rates.contains(said) && of_rates.contains("direction of the axes (--log-axes)"), "{of_rates}");
+}
+
 #[test]
 fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
     let folder = tempfile::tempdir().unwrap();

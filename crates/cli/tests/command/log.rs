@@ -85,6 +85,55 @@ fn signals_become_a_csv_that_is_read_again() {
     assert!(!out.exists());
 }
 
+/// As `blackbox_decode` writes a log of Betaflight: eRPM in hundreds of electrical rpm, and motors that count from 0.
+const BLACKBOX: &str = "loopIteration, time (us), motor[0], motor[1], eRPM[0], eRPM[1]\n\
+    0, 5000000, 1720, 1730, 420, 427\n1, 5100000, 1720, 1730, 420, 434\n2, 5200000, 1725, 1735, 427, 434\n";
+
+/// The electrical speeds of a CSV become rotor speeds by the names that the warning proposes.
+#[test]
+fn electrical_speeds_ask_for_the_number_of_poles() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "blackbox.csv", BLACKBOX);
+    let run = hovertone(&["log", &log]).ends_with(0);
+    for words in ["no rotor speed in this log", "electrical speed", "electrical rpm / 100"] {
+        assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
+    }
+    assert!(run.stderr.contains("columns eRPM[0] to eRPM[1] have electrical speeds"), "{}", run.stderr);
+    let names = ["eRPM[0]=rotor1_erpm100_14_poles", "eRPM[1]=rotor2_erpm100_14_poles"];
+    let proposed = format!("--column '{}' --column '{}'", names[0], names[1]);
+    let columns = ["--column", names[0], "--column", names[1]];
+    for command in [&["log", &log][..], &["motor", &log], &["verify", "hover.wav", &log, "--blades", "2"]] {
+        let code = if command[0] == "log" { 0 } else { 1 };
+        let stderr = hovertone(command).ends_with(code).stderr;
+        assert!(stderr.contains(&format!("run: hovertone {}", command[0])) && stderr.contains(&proposed), "{stderr}");
+    }
+    let run = hovertone(&[&["log", "--json", &log], &columns[..]].concat()).ends_with(0);
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    let line = run.json_lines().remove(0);
+    let signals = line["tables"][0]["signals"].as_array().unwrap();
+    let speed = signals.iter().find(|signal| signal["about"] == "rotor speed" && signal["number"] == 2).unwrap();
+    // 43 400 electrical rpm of 7 pole pairs are 6200 rpm
+    assert!((speed["high"].as_f64().unwrap() - 6200.0 / 60.0).abs() < 1e-9, "{speed}");
+    let commands = signals.iter().filter(|signal| signal["about"] == "command");
+    assert_eq!(commands.map(|signal| signal["number"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2]);
+    // of another program, the unit is not known
+    let other = written(folder.path(), "other.csv", "time_s,erpm_1\n0,42000\n1,43000\n");
+    let stderr = hovertone(&["log", &other]).ends_with(0).stderr;
+    assert!(stderr.contains("erpm_1=rotor1_erpm_14_poles") && stderr.contains("hundreds of rpm"), "{stderr}");
+}
+
+/// Two columns with one meaning, where --column made them so.
+#[test]
+fn a_name_that_another_column_has_leads_to_names_for_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", "time_s,rpm[0],rpm[1]\n0,600,600\n1,600,600\n");
+    let named = ["log", &log, "--column", "rpm[0]=rotor1_rpm"];
+    refused_with(&named, &["with the name rotor1_rpm from --column", "--column 'rpm[1]=rotor2_rpm'"]);
+    hovertone(&[&named[..], &["--column", "rpm[1]=rotor2_rpm"]].concat()).ends_with(0);
+    let twice = written(folder.path(), "twice.csv", "time_s,motor1_rpm,rotor1_rpm\n0,600,600\n1,600,600\n");
+    refused_with(&["log", &twice], &["remove one of the columns"]);
+}
+
 #[test]
 fn what_has_no_meaning_is_refused_with_what_to_do() {
     let folder = tempfile::tempdir().unwrap();

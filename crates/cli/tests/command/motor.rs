@@ -1,6 +1,6 @@
 //! `hovertone motor`: time constants, dead time and static map from a log.
 
-use crate::testkit::{hovertone, recordings, refused_with, text};
+use crate::testkit::{hovertone, recordings, refused_with, text, write_steady_hover_and_log};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs;
@@ -222,7 +222,9 @@ fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
         "too far for a time constant",
         "speed of each command\n",
         "output 4",
-        "if a motor is not held at two different commands",
+        "no motor was held at two different commands for long enough, so the gains come from all log rows",
+        "speed at command 0: where the fitted straight line reaches command 0; the real motor may stand still there",
+        "use `hovertone greybox` (for the vehicles ardrone, ",
     ] {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
@@ -270,6 +272,22 @@ fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
         "{}",
         other.stderr
     );
+}
+
+/// What to record where no step is heard stands in one place: below the text, or in the warning beside the JSON.
+#[test]
+fn advice_about_missing_steps_is_given_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, _) = write_steady_hover_and_log(folder.path());
+    let commands =
+        written(folder.path(), "commands.csv", "time_s,motor1_pwm\n0,1200\n1,1200\n2,1300\n3,1300\n5,1200\n");
+    let asked = ["motor", text(&sound), "--vehicle", "ardrone", "--commands", &commands];
+    let run = hovertone(&asked).ends_with(3);
+    let all = format!("{}{}", run.stderr, run.stdout);
+    assert_eq!(all.matches("record a bench run whose command steps").count(), 1, "{all}");
+    assert!(run.stderr.contains("commands.csv are not used: no step of the speed is heard"), "{}", run.stderr);
+    let run = hovertone(&[&asked[..], &["--json"]].concat()).ends_with(3);
+    assert_eq!(run.stderr.matches("record a bench run whose command steps").count(), 1, "{}", run.stderr);
 }
 
 #[test]

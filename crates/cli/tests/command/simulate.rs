@@ -119,6 +119,27 @@ fn faults_are_named_with_the_nearest_name() {
     }
 }
 
+/// Files of other kinds are often given in place of the scenario.
+#[test]
+fn a_model_and_a_table_are_no_scenario() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content, words) in [
+        (
+            "model.sdf",
+            "<?xml version=\"1.0\"?>\n<sdf version=\"1.9\"></sdf>\n",
+            "a simulator's model (SDF), so it cannot be the scenario",
+        ),
+        ("page.html", "<p>hover</p>\n", "XML, so it cannot be the scenario file"),
+        ("log.csv", "# a log\ntime_s,roll\n0.0,0.1\n", "a table (CSV), so it cannot be the scenario file"),
+    ] {
+        let file = folder.path().join(name);
+        fs::write(&file, content).unwrap();
+        let run = hovertone(&["simulate", text(&file), "-o", text(&folder.path().join("out"))]).ends_with(1);
+        assert!(run.stderr.contains(words) && run.stderr.contains("give the TOML file"), "{}", run.stderr);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+}
+
 #[test]
 fn a_flight_through_the_wall_ends_with_its_time() {
     let folder = tempfile::tempdir().unwrap();

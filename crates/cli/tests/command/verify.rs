@@ -69,6 +69,18 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     write_log(&flown, &electrical, 10, 7.0);
     let pairs = hovertone(&["verify", text(&sound), text(&electrical), "--vehicle", vehicle]).ends_with(3);
     assert!(pairs.stdout.contains("electrical speeds of motors with 7 pole pairs"), "{}", pairs.stdout);
+    // hundreds of electrical rpm, as Betaflight writes them
+    write_log(&flown, &electrical, 10, 0.07);
+    let csv = fs::read_to_string(&electrical).unwrap();
+    let headers = [1, 2, 3, 4].map(|rotor| (format!("rotor{rotor}_rpm"), format!("eRPM[{}]", rotor - 1)));
+    fs::write(&electrical, headers.iter().fold(csv, |csv, (name, header)| csv.replace(name, header))).unwrap();
+    let asked_electrical = ["verify", text(&sound), text(&electrical), "--vehicle", vehicle, "--json"];
+    let refused = hovertone(&asked_electrical).ends_with(1).stderr;
+    assert!(refused.contains("have electrical speeds"), "{refused}");
+    let names = [1, 2, 3, 4].map(|rotor| format!("eRPM[{}]=rotor{rotor}_erpm100_14_poles", rotor - 1));
+    let columns: Vec<&str> = names.iter().flat_map(|name| ["--column", name]).collect();
+    let line = hovertone(&[&asked_electrical[..], &columns].concat()).json_lines().remove(0);
+    assert!((line["speed_ratio"].as_f64().unwrap() - 1.0).abs() < 0.005, "{line}");
     let in_rev_s = folder.path().join("rev_s.csv");
     write_log(&flown, &in_rev_s, 10, 1.0 / 60.0);
     let unit = hovertone(&["verify", text(&sound), text(&in_rev_s), "--vehicle", vehicle]).ends_with(3);
@@ -120,6 +132,21 @@ fn steady_speeds_do_not_show_whose_log_it_is() {
         run.stdout.contains("passed: the number of blades (or the gear) is right, and the clock is right within 0.5 %"),
         "{}",
         run.stdout
+    );
+}
+
+/// The table names what is compared, so the warning about rotors that are not separated does not advise --mean-only.
+#[test]
+fn rotors_that_are_not_separated_are_compared_without_another_flag() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, log) = write_steady_hover_and_log(folder.path());
+    let asked = ["verify", text(&sound), text(&log), "--vehicle", "ardrone", "--log-offset-s=-0.2:0.2"];
+    let run = hovertone(&asked).ends_with(0);
+    assert!(run.stdout.contains("all    mean of all motors"), "{}", run.stdout);
+    assert!(
+        run.stderr.contains("only their mean speed is known") && !run.stderr.contains("--mean-only"),
+        "{}",
+        run.stderr
     );
 }
 

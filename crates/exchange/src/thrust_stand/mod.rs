@@ -1,8 +1,12 @@
 //! From tables of speed and thrust to speeds and forces in SI units: CSV of RCbenchmark, or any CSV with a header.
 
 mod column;
+mod column_notes;
+mod copies;
+mod coverage;
 mod error;
 mod grouping;
+mod header;
 mod note;
 mod plausible;
 #[cfg(test)]
@@ -12,9 +16,12 @@ pub use error::TableError;
 pub use note::TableNote;
 
 use crate::csv_text::{CsvError, CsvText, line_of};
-use column::{Column, Quantity, columns_of, rotors_in};
+use column::{Column, columns_of, rotors_in};
+use column_notes::column_notes;
+use copies::copies_notes;
 use csv::StringRecord;
 use grouping::grouping_columns;
+use header::Quantity;
 use plausible::MeasuredColumns;
 use std::f64::consts::TAU;
 
@@ -93,9 +100,9 @@ pub struct StandTable {
 }
 
 /// Reads a table, separated by commas, semicolons or tabs. The headers give the quantities of the columns: a speed (rpm, rad/s, rev/s), a
-/// thrust (N, mN, g, gf, kg, kgf, lbf, ozf) or a mass that hovers (kg, g), their standard uncertainties (the same with "std"), power,
-/// voltage, current, torque (N m, or a force and a length). Columns of words make groups, unless they name the rows. An unknown unit is
-/// never guessed.
+/// thrust (N, mN, g, gf, kg, kgf, lbf, ozf) or a mass that hovers (kg, g), their standard uncertainties (the same with "std") or expanded
+/// ones (with "k=2", "95%", "U" or "±"), power, voltage, current, torque (N m, or a force and a length). Columns of words make groups, unless
+/// they name the rows. An unknown unit is never guessed.
 ///
 /// Commas are decimal commas where a cell proves it ("3,5").
 ///
@@ -117,7 +124,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         best(&csv, &columns, &records, Quantity::Speed).ok_or_else(|| missing("a speed (rpm, rad/s or rev/s)"))?;
     let force = best(&csv, &columns, &records, Quantity::Thrust)
         .or_else(|| best(&csv, &columns, &records, Quantity::Mass))
-        .ok_or_else(|| match columns.iter().find(|column| column.lacks_unit && !column.names_torque()) {
+        .ok_or_else(|| match columns.iter().find(|column| column.is_force_without_unit()) {
             Some(column) => TableError::NoUnit { column: column.header.clone() },
             None => missing("a thrust (N, g, kg or lbf) or a mass (kg or g)"),
         })?;
@@ -132,14 +139,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         }
     }
     plausible::check(&rows, MeasuredColumns { speed, force })?;
-    let unit_missing = columns.iter().filter(|column| column.lacks_unit);
-    let mut notes: Vec<TableNote> =
-        unit_missing.map(|column| TableNote::UnitMissing { column: column.header.clone() }).collect();
-    let of_nothing = columns.iter().filter(|column| column.lacks_quantity);
-    notes.extend(of_nothing.map(|column| TableNote::QuantityMissing { column: column.header.clone() }));
-    notes.extend(rivals(&csv, &columns, &records, [speed, force]));
-    notes.extend(std_notes(&columns, [force, speed]));
-    notes.extend(speed.is_in_hz().then(|| TableNote::SpeedInHz { column: speed.header.clone() }));
+    let mut notes = column_notes(&csv, &columns, &records, MeasuredColumns { speed, force });
     notes.extend(empty_notes(empty));
     turn_round(&mut rows, &mut notes);
     leave_out_resting(&mut rows, &mut notes);
@@ -153,6 +153,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
             None => groups.push(StandGroup { name, rows: vec![row] }),
         }
     }
+    notes.extend(copies_notes(&groups, &records));
     let std_header = |measured: &Column| Some(std_of(&columns, measured)?.header.clone());
     for group in &groups {
         check_stds(group, std_header(force), |row| row.force_std)?;
@@ -209,24 +210,6 @@ fn numbers_in(csv: &CsvText, column: &Column, records: &[StringRecord]) -> usize
     records.iter().filter(tells).count()
 }
 
-/// Notes about columns that could have been the speed or the force as well: one for the speed, one for the force.
-fn rivals(csv: &CsvText, columns: &[Column], records: &[StringRecord], used: [&Column; 2]) -> Vec<TableNote> {
-    let [speed, force] = used;
-    let note = |(what, chosen): (&'static str, &Column)| {
-        let is_rival = |column: &&Column| {
-            let is_of_kind = match column.quantity {
-                Some(Quantity::Speed) => what == "speed",
-                Some(Quantity::Thrust | Quantity::Mass) => what == "force",
-                _ => false,
-            };
-            is_of_kind && column.index != chosen.index && numbers_in(csv, column, records) > 0
-        };
-        let rivals: Vec<String> = columns.iter().filter(is_rival).map(|column| column.header.clone()).collect();
-        (!rivals.is_empty()).then(|| TableNote::Rivals { columns: rivals, what, chosen: chosen.header.clone() })
-    };
-    [("speed", speed), ("force", force)].into_iter().filter_map(note).collect()
-}
-
 struct RowReader<'a> {
     csv: &'a CsvText<'a>,
     columns: &'a [Column],
@@ -261,7 +244,7 @@ impl RowReader<'_> {
                     value: plausible::in_unit(value, column),
                     fault: "negative, but a standard uncertainty must be 0 or more",
                 }),
-                value => Ok(value.map(|std| if column.is_share { std * size.abs() } else { std })),
+                value => Ok(value.map(|std| if column.is_share() { std * size.abs() } else { std })),
             }
         };
         let other = |quantity: Quantity| {
@@ -294,22 +277,6 @@ impl RowReader<'_> {
         let words = self.groups_by.iter().filter_map(|&column| record.get(column));
         words.collect::<Vec<_>>().join(", ")
     }
-}
-
-/// How the columns of uncertainties of these columns are read.
-fn std_notes(columns: &[Column], measured: [&Column; 2]) -> Vec<TableNote> {
-    let mut notes = Vec::new();
-    for quantity in measured.into_iter().filter_map(Column::std_quantity) {
-        let mut of_quantity = columns.iter().filter(|column| column.quantity == Some(quantity));
-        let Some(used) = of_quantity.next() else { continue };
-        notes.extend(used.is_expanded().then(|| TableNote::Expanded { column: used.header.clone() }));
-        notes.extend(of_quantity.map(|other| TableNote::Rivals {
-            columns: vec![other.header.clone()],
-            what: "uncertainty",
-            chosen: used.header.clone(),
-        }));
-    }
-    notes
 }
 
 /// A note for each group that has rows without a speed or a force.

@@ -19,6 +19,33 @@ pub enum TableNote {
     Expanded {
         /// Header of the column.
         column: String,
+        /// Its coverage factor k.
+        coverage_factor: f64,
+        /// The parts of the header that say so.
+        stated: Vec<String>,
+        /// Whether the header names an uncertainty without these parts.
+        is_named_without: bool,
+    },
+    /// An uncertainty with a coverage whose factor is not known.
+    CoverageUnknown {
+        /// Header of the column.
+        column: String,
+        /// The coverage, as in the header.
+        stated: String,
+    },
+    /// An error or a tolerance that may be a standard uncertainty or another one.
+    KindMissing {
+        /// Header of the column.
+        column: String,
+    },
+    /// A column of coverage factors.
+    FactorColumn {
+        /// Header of the column.
+        column: String,
+        /// Header of the column of uncertainties …
+        uncertainty: String,
+        /// … and the coverage factor that it is read with.
+        coverage_factor: f64,
     },
     /// A speed whose header has the unit Hz.
     SpeedInHz {
@@ -55,6 +82,15 @@ pub enum TableNote {
         /// Lines of the file, counted from 1.
         lines: Vec<u64>,
     },
+    /// Rows that are exact copies of earlier ones.
+    Copies {
+        /// Group of the rows; empty without groups.
+        group: String,
+        /// Number of copies.
+        count: usize,
+        /// Number of all rows of the group.
+        of: usize,
+    },
     /// Rows at rest.
     AtRest {
         /// Number of these rows.
@@ -69,34 +105,62 @@ impl TableNote {
     #[must_use]
     pub fn is_of(&self, name: &str) -> bool {
         match self {
-            Self::AgainstTheOthers { group, .. } | Self::Empty { group, .. } => group == name,
+            Self::AgainstTheOthers { group, .. } | Self::Empty { group, .. } | Self::Copies { group, .. } => {
+                group == name
+            }
             _ => true,
         }
     }
 
     /// What to do about it; empty where the user needs to do nothing.
     #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+    pub fn hint(&self) -> String {
+        let hint = match self {
+            Self::Expanded { stated, is_named_without: true, .. } => {
+                return format!(
+                    "if they are standard uncertainties (k = 1), remove {} from the name of the column",
+                    quoted(stated, " and ")
+                );
+            }
+            Self::Expanded { stated, .. } => {
+                return format!(
+                    "if they are standard uncertainties (k = 1), write std in place of {}, as in thrust_std_g",
+                    quoted(stated, " and ")
+                );
+            }
+            Self::CoverageUnknown { stated, .. } => {
+                return format!("write the coverage factor in place of \"{stated}\", as in thrust_uncertainty_k=2_n");
+            }
+            Self::FactorColumn { uncertainty, .. } => {
+                return format!(
+                    "write the coverage factor into the name of column \"{uncertainty}\", as in thrust_uncertainty_k=2_n"
+                );
+            }
             Self::UnitMissing { .. } => {
                 "if hovertone should use this column, write the unit into its name, as in thrust_g or torque_n_m"
             }
-            Self::Expanded { .. } => {
-                "if they are standard uncertainties (k = 1), write std into the name, as in thrust_std_g"
+            Self::KindMissing { .. } => {
+                "if they are standard uncertainties (k = 1), write std into its name, as in thrust_std_n; if they are expanded \
+                 uncertainties, write the coverage factor, as in thrust_uncertainty_k=2_n"
             }
             Self::SpeedInHz { .. } => {
                 "if it is the frequency of the tone of the blades, divide it by the number of blades; then name the column speed_rev_s"
             }
-            Self::QuantityMissing { .. } => {
-                "write the quantity into its name, as in thrust_std_percent or speed_std_percent"
-            }
+            Self::QuantityMissing { .. } => "write the quantity into its name, as in thrust_std_n or speed_std_percent",
             Self::Rivals { columns, .. } if columns.len() == 1 => {
                 "if hovertone should use this column, remove the other column"
             }
             Self::Rivals { .. } => "if hovertone should use one of these columns, remove the others",
+            Self::Copies { .. } => "if they are no measurements of their own, remove the copies",
             Self::TurnedRound | Self::AgainstTheOthers { .. } | Self::Empty { .. } | Self::AtRest { .. } => "",
-        }
+        };
+        hint.to_owned()
     }
+}
+
+/// Parts of headers in quotation marks.
+fn quoted(parts: &[String], between: &str) -> String {
+    parts.iter().map(|part| format!("\"{part}\"")).collect::<Vec<_>>().join(between)
 }
 
 impl fmt::Display for TableNote {
@@ -105,12 +169,24 @@ impl fmt::Display for TableNote {
             Self::UnitMissing { column } => {
                 write!(f, "column \"{column}\" is not used: its name has no unit that hovertone knows")
             }
-            Self::Expanded { column } => {
+            Self::Expanded { column, coverage_factor: k, .. } => write!(
+                f,
+                "column \"{column}\" is read as expanded uncertainties with k = {k}, so its numbers are divided by {k}"
+            ),
+            Self::CoverageUnknown { column, stated } => {
                 write!(
                     f,
-                    "column \"{column}\" is read as expanded uncertainties with k = 2, so its numbers are divided by 2"
+                    "column \"{column}\" is not used: hovertone does not know the coverage \"{stated}\" in its name"
                 )
             }
+            Self::KindMissing { column } => write!(
+                f,
+                "column \"{column}\" is not used: its name does not say whether these are standard uncertainties"
+            ),
+            Self::FactorColumn { column, uncertainty, coverage_factor } => write!(
+                f,
+                "column \"{column}\" is not used: column \"{uncertainty}\" is read as uncertainties with k = {coverage_factor}"
+            ),
             Self::SpeedInHz { column } => {
                 write!(f, "column \"{column}\" is read as turns of the rotor per second")
             }
@@ -119,8 +195,8 @@ impl fmt::Display for TableNote {
             }
             Self::Rivals { columns, what, chosen } => {
                 let (noun, verb) = if columns.len() == 1 { ("column", "is") } else { ("columns", "are") };
-                let names: Vec<String> = columns.iter().map(|column| format!("\"{column}\"")).collect();
-                write!(f, "{noun} {} {verb} not used: the {what} comes from column \"{chosen}\"", names.join(", "))
+                let names = quoted(columns, ", ");
+                write!(f, "{noun} {names} {verb} not used: the {what} comes from column \"{chosen}\"")
             }
             Self::TurnedRound => f.write_str(
                 "the thrusts are negative, and are used as positive ones: a stand that is mounted the other \
@@ -138,6 +214,10 @@ impl fmt::Display for TableNote {
                 let numbers = lines.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
                 write!(f, "{noun} {numbers} {verb} left out: {their} speed or force is empty")
             }
+            Self::Copies { count, of, .. } => write!(
+                f,
+                "{count} of {of} rows are exact copies of other rows: the fit uses them all, so the ± may be too small"
+            ),
             Self::AtRest { count, speed_rpm } => write!(
                 f,
                 "{count} {}: slower than {speed_rpm:.0} rpm ({:.0} % of the fastest speed)",

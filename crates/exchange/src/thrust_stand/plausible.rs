@@ -1,6 +1,7 @@
 //! Numbers that no rotor and no multirotor has: they come from a unit that is not that of the header.
 
-use super::column::{Column, RPM_RAD_S};
+use super::column::Column;
+use super::header::RPM_RAD_S;
 use super::{AT_REST_SHARE, GroupedRow, StandForce, StandRow, TableError, fastest_rad_s};
 use hovertone_vehicle::{MASS_ALONE_KG_MAX, RotorSpeed, SHAFT_REV_S};
 use std::f64::consts::TAU;

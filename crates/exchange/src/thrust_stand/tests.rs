@@ -214,12 +214,41 @@ fn a_note_about_rows_belongs_to_their_group() {
 }
 
 #[test]
-fn an_expanded_uncertainty_is_halved_and_said() {
-    for header in ["thrust_expanded_uncertainty_g", "U_thrust_g", "thrust_uncertainty_k2_g", "thrust_g_std_k=2"] {
-        let table = table_from_csv(&format!("rpm,thrust_g,{header}\n3000,100,2\n4000,180,3\n")).unwrap();
-        assert!((table.groups[0].rows[0].force_std.unwrap() - 1e-3 * 9.80665).abs() < 1e-9, "{header}");
-        assert_eq!(table.notes, [TableNote::Expanded { column: header.to_owned() }]);
+fn an_expanded_uncertainty_is_divided_by_its_factor_and_said() {
+    for (header, factor, advice) in [
+        ("thrust_expanded_uncertainty_g", 2.0, "remove \"expanded\" from the name"),
+        ("U_thrust_g", 2.0, "write std in place of \"U\""),
+        ("thrust_uncertainty_k2_g", 2.0, "remove \"k2\" from the name"),
+        ("thrust_g_std_k=2", 2.0, "remove \"k=2\" from the name"),
+        ("thrust_std_g (k = 2)", 2.0, "remove \"k = 2\" from the name"),
+        ("thrust_uncertainty_k=3_g", 3.0, "remove \"k=3\" from the name"),
+        ("thrust_expanded_k=2.5_g", 2.5, "write std in place of \"expanded\" and \"k=2.5\""),
+        ("thrust_uncertainty_95%_g", 2.0, "remove \"95%\" from the name"),
+        ("Thrust uncertainty 99.7 % (g)", 3.0, "remove \"99.7 %\" from the name"),
+        ("±thrust_g", 2.0, "write std in place of \"±\""),
+        ("+-thrust_g", 2.0, "write std in place of \"+-\""),
+    ] {
+        // the thrust is the second column, so that the first could be taken for it
+        let table = table_from_csv(&format!("rpm;{header};thrust_g\n3000;2;100\n4000;3;180\n")).unwrap();
+        assert_eq!(table.force_column, "thrust_g", "{header}");
+        let std_n = table.groups[0].rows[0].force_std.unwrap();
+        assert!((std_n - 2.0 / factor * 1e-3 * 9.80665).abs() < 1e-9, "{header}: {std_n}");
+        let [note] = &table.notes[..] else { panic!("{header}: {:?}", table.notes) };
+        let words =
+            format!("is read as expanded uncertainties with k = {factor}, so its numbers are divided by {factor}");
+        assert!(note.to_string().contains(&words) && note.hint().contains(advice), "{note} {}", note.hint());
     }
+    for header in ["thrust_std_g", "thrust_uncertainty_68%_g", "u(thrust)_g", "U_thrust_g (k=1)"] {
+        let table = table_from_csv(&format!("rpm;thrust_g;{header}\n3000;100;2\n4000;180;3\n")).unwrap();
+        assert!((table.groups[0].rows[0].force_std.unwrap() - 2e-3 * 9.80665).abs() < 1e-9, "{header}");
+        assert!(table.notes.is_empty(), "{header}: {:?}", table.notes);
+    }
+    let share = table_from_csv("rpm,thrust_g,thrust_uncertainty_k=3_%\n3000,100,3\n4000,180,3\n").unwrap();
+    assert!((share.groups[0].rows[0].force_std.unwrap() - 1e-3 * 9.80665).abs() < 1e-9);
+}
+
+#[test]
+fn of_two_uncertainties_the_first_is_used() {
     let two = table_from_csv("rpm,thrust_g,thrust_std_g,thrust_uncertainty_g\n3000,100,1,2\n4000,180,1,3\n").unwrap();
     assert!((two.groups[0].rows[0].force_std.unwrap() - 1e-3 * 9.80665).abs() < 1e-9);
     let [note] = &two.notes[..] else { panic!("{:?}", two.notes) };
@@ -227,4 +256,52 @@ fn an_expanded_uncertainty_is_halved_and_said() {
         note.to_string(),
         "column \"thrust_uncertainty_g\" is not used: the uncertainty comes from column \"thrust_std_g\""
     );
+}
+
+#[test]
+fn an_uncertainty_that_is_not_used_is_named() {
+    for (header, words, advice) in [
+        ("thrust_error_g", "does not say whether these are standard uncertainties", "write std into its name"),
+        ("thrust_tolerance_g", "does not say whether", "as in thrust_std_n"),
+        ("mass_error_g", "does not say whether", "as in thrust_uncertainty_k=2_n"),
+        ("thrust_uncertainty_80%_g", "does not know the coverage \"80%\"", "in place of \"80%\""),
+        ("thrust_uncertainty_k=0_g", "does not know the coverage \"k=0\"", "in place of \"k=0\""),
+        ("± (g)", "does not say which quantity", "write the quantity into its name"),
+    ] {
+        let table = table_from_csv(&format!("rpm,thrust_g,{header}\n3000,100,2\n4000,180,3\n")).unwrap();
+        assert_eq!(table.groups[0].rows[0].force_std, None, "{header}");
+        let [note] = &table.notes[..] else { panic!("{header}: {:?}", table.notes) };
+        assert!(note.to_string().contains(words) && note.hint().contains(advice), "{note} {}", note.hint());
+    }
+    // an uncertainty is never the force
+    let alone = table_from_csv("rpm,±thrust_n\n3000,100\n4000,180\n").unwrap_err().to_string();
+    assert!(alone.starts_with("no column holds a thrust"), "{alone}");
+}
+
+#[test]
+fn a_column_of_coverage_factors_is_said_where_another_one_is_used() {
+    let notes = |header: &str, k: &str| {
+        table_from_csv(&format!("rpm,thrust_n,{header},k\n3000,1,0.02,{k}\n4000,2,0.03,{k}\n")).unwrap().notes
+    };
+    let [note] = &notes("u(thrust)_mN", "2")[..] else { panic!("one note") };
+    assert_eq!(
+        note.to_string(),
+        "column \"k\" is not used: column \"u(thrust)_mN\" is read as uncertainties with k = 1"
+    );
+    assert!(note.hint().contains("into the name of column \"u(thrust)_mN\""), "{}", note.hint());
+    assert!(notes("u(thrust)_mN", "1").is_empty() && notes("u(thrust)_mN", "293").is_empty());
+    assert_eq!(notes("U(thrust)_mN", "2").len(), 1, "only that the numbers are divided by 2");
+}
+
+#[test]
+fn rows_that_are_mostly_copies_are_said() {
+    let rows = ["3000,0.7\n", "3600,1.02\n", "4000,1.25\n"];
+    let notes = |rows: &str| table_from_csv(&format!("rpm,thrust_n\n{rows}")).unwrap().notes;
+    let copied = TableNote::Copies { group: String::new(), count: 6, of: 9 };
+    assert_eq!(notes(&rows.concat().repeat(3)), [copied]);
+    assert_eq!(notes(&rows.concat().repeat(2)).len(), 1);
+    // one row twice is a coincidence
+    assert!(notes(&(rows.concat() + rows[0])).is_empty());
+    let note = TableNote::Copies { group: String::new(), count: 6, of: 9 };
+    assert!(note.to_string().starts_with("6 of 9 rows are exact copies of other rows"), "{note}");
 }

@@ -2,6 +2,7 @@
 
 use super::encoding::FrameLayout;
 use super::main_frames::Prediction;
+use crate::electrical::{HUNDREDS_RPM, USUAL_POLES, rev_s_of_electrical_rpm};
 use crate::table::{SignalRole, TableSignal};
 use crate::{LogError, LogFormat};
 use std::collections::HashMap;
@@ -9,12 +10,9 @@ use std::f64::consts::TAU;
 
 /// Version of the format that is read.
 const VERSION: &str = "2";
-/// Values that a header leaves out (`blackbox-tools`, `parser.c`), and the usual number of magnetic poles of a motor.
+/// Values that a header leaves out (`blackbox-tools`, `parser.c`).
 const MIN_THROTTLE: i32 = 1150;
 const BATTERY_REFERENCE: i32 = 4095;
-const MOTOR_POLES: f64 = 14.0;
-/// The log has a hundredth of the electrical speed in rpm.
-const ELECTRICAL_RPM: f64 = 100.0;
 /// Factor of gyro values in logs of high resolution.
 const HIGH_RESOLUTION: f64 = 10.0;
 
@@ -144,8 +142,8 @@ impl Header {
         }
         if let Some(motor) = index("eRPM") {
             let poles = self.lines.get("motor_poles").and_then(|poles| poles.parse().ok());
-            let pole_pairs = poles.filter(|poles: &f64| *poles >= 2.0).unwrap_or(MOTOR_POLES) / 2.0;
-            return with_role(SignalRole::RotorSpeed(motor + 1), ELECTRICAL_RPM / 60.0 / pole_pairs);
+            let poles = poles.filter(|poles: &f64| *poles >= 2.0).unwrap_or(USUAL_POLES);
+            return with_role(SignalRole::RotorSpeed(motor + 1), HUNDREDS_RPM * rev_s_of_electrical_rpm(poles));
         }
         match (index("gyroADC").filter(|axis| *axis < 3), self.gyro_rad_s()) {
             (Some(axis), Some(factor)) => with_role(SignalRole::BodyRate(axis as usize), factor),

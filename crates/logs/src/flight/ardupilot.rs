@@ -17,8 +17,7 @@ pub(super) fn flight(tables: &[SignalTable], motor_of_output: &BTreeMap<u32, u32
         speeds_rev_s: speeds_of(tables, motor_of_output),
         commands: named("RCOU").find_map(|table| commands_of(table, motor_of_output)),
         rates: rates.filter(|rates| !rates.time_s.is_empty()),
-        torque: None,
-        notes: Vec::new(),
+        ..LoggedFlight::default()
     }
 }
 
@@ -51,7 +50,7 @@ fn speeds_of(tables: &[SignalTable], motor_of_output: &BTreeMap<u32, u32>) -> Op
         escs.iter().copied().max_by_key(|(number, table, _)| (table.time_s.len(), u32::MAX - number))?;
     let times_s = &fullest.time_s;
     let numbers: Option<Vec<u32>> =
-        escs.iter().map(|(number, ..)| motor_of_output.get(&(number - 1)).copied()).collect();
+        escs.iter().map(|(number, ..)| motor_of_output.get(&number.checked_sub(1)?).copied()).collect();
     let at_times: Vec<Vec<f64>> = escs.iter().map(|(_, table, values)| values_at(times_s, table, values)).collect();
     let motors = at_times.iter().enumerate().map(|(at, values)| {
         let number = numbers.as_ref().map_or(escs[at].0, |numbers| numbers[at]);

@@ -10,6 +10,7 @@ mod one_table;
 mod px4;
 mod rows;
 
+use crate::electrical::ElectricalColumn;
 use crate::signals::{CollectedSignals, SignalTable, collected};
 use crate::table::{Findings, TableSignal};
 use crate::table_text::names_of;
@@ -28,6 +29,15 @@ pub struct LoggedMotors {
     pub names: Vec<String>,
     /// `values[motor][row]`.
     pub values: Vec<Vec<f64>>,
+}
+
+/// Electrical speeds of motors whose number of magnetic poles the log does not name. All have one unit, so their ratios are true.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElectricalSpeeds {
+    /// The speeds, without their signs.
+    pub motors: LoggedMotors,
+    /// Their columns.
+    pub columns: Vec<ElectricalColumn>,
 }
 
 /// Axes of body rates.
@@ -64,6 +74,8 @@ pub struct LoggedTorque {
 pub struct LoggedFlight {
     /// Measured speeds, rev/s.
     pub speeds_rev_s: Option<LoggedMotors>,
+    /// Electrical speeds of a log that does not name the number of magnetic poles.
+    pub electrical: Option<ElectricalSpeeds>,
     /// Commands, in any unit.
     pub commands: Option<LoggedMotors>,
     /// Body rates.
@@ -95,7 +107,8 @@ pub fn flight_from_log(source: impl Read, names: &ColumnNames) -> Result<LoggedF
         return Err(LogError::WithoutData { format });
     }
     let mut flight = flight_of_tables(format, &log.tables, &findings);
-    if flight.speeds_rev_s.is_none() && flight.commands.is_none() && flight.rates.is_none() {
+    let has_speeds = flight.speeds_rev_s.is_some() || flight.electrical.is_some();
+    if !has_speeds && flight.commands.is_none() && flight.rates.is_none() {
         return Err(match is_text {
             true => LogError::NoSignal { columns: names_of(&findings.headers) },
             false => LogError::WithoutSignal { format, tables: log.table_names.join(", ") },

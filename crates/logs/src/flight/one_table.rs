@@ -1,7 +1,10 @@
 //! Logs with all signals in one table: CSV, and blackbox.
 
-use super::rows::{Motor, Rows, command_number, motors_of, rates_of, rows_of, speed_number, with_role, without_sign};
-use super::{LoggedFlight, LoggedTorque, RateAxes};
+use super::rows::{
+    Motor, Rows, command_number, electrical_number, motors_of, rates_of, rows_of, speed_number, with_role, without_sign,
+};
+use super::{ElectricalSpeeds, LoggedFlight, LoggedTorque, RateAxes};
+use crate::electrical::electrical_columns;
 use crate::signals::SignalTable;
 use crate::table::SignalRole;
 
@@ -11,9 +14,14 @@ pub(super) fn flight(tables: &[SignalTable], axes: Option<RateAxes>) -> LoggedFl
         return LoggedFlight::default();
     };
     let speeds = motors_of(&table.time_s, one_of_each(with_role(table, speed_number)), "motor", |_| false);
+    let electrical = motors_of(&table.time_s, with_role(table, electrical_number), "motor", |_| false);
     let commands = motors_of(&table.time_s, with_role(table, command_number), "motor", |_| false);
     LoggedFlight {
         speeds_rev_s: speeds.map(without_sign),
+        electrical: electrical.map(|motors| ElectricalSpeeds {
+            motors: without_sign(motors),
+            columns: electrical_columns(table.signals.iter()),
+        }),
         commands,
         rates: rates_of(table, axes),
         torque: torque_of(table),

@@ -34,7 +34,7 @@ pub(super) fn flight(tables: &[SignalTable]) -> LoggedFlight {
     let rates = topics.into_iter().find_map(|topic| {
         rates_of(fullest(tables, topic)?, Some(RateAxes::ForwardRightDown)).filter(|rates| !rates.time_s.is_empty())
     });
-    LoggedFlight { speeds_rev_s: speeds, commands, rates, torque: None, notes: Vec::new() }
+    LoggedFlight { speeds_rev_s: speeds, commands, rates, ..LoggedFlight::default() }
 }
 
 /// The instances of a topic, in the order of their numbers.

@@ -65,6 +65,10 @@ pub(super) fn speed_number(role: SignalRole) -> Option<u32> {
     if let SignalRole::RotorSpeed(rotor) = role { Some(rotor) } else { None }
 }
 
+pub(super) fn electrical_number(role: SignalRole) -> Option<u32> {
+    if let SignalRole::ElectricalSpeed(motor) = role { Some(motor) } else { None }
+}
+
 pub(super) fn command_number(role: SignalRole) -> Option<u32> {
     if let SignalRole::Command(motor) = role { Some(motor) } else { None }
 }

@@ -1,6 +1,10 @@
 //! From the headers of a CSV to the quantities of its columns.
 
+use crate::electrical::{HUNDREDS_RPM, rev_s_of_electrical_rpm};
 use std::f64::consts::TAU;
+
+/// Most magnetic poles of a motor of a multirotor. *Physics.*
+const POLES_MAX: u32 = 100;
 
 /// Quantity of a column. Factors are units of the signal (s, rad/s) per unit of the column.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +23,11 @@ pub(super) enum LogColumn {
     MotorSpeed {
         motor: u32,
         rev_s: f64,
+    },
+    /// Electrical speed of a motor, in hundreds of rpm or in an unknown unit. Its number of magnetic poles is not known.
+    ElectricalSpeed {
+        motor: u32,
+        is_in_hundreds: bool,
     },
     MotorCommand {
         motor: u32,
@@ -67,6 +76,9 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
     ]) {
         return None;
     }
+    if let Some(at) = words.iter().position(|word| word == "erpm") {
+        return electrical_column(&words, at);
+    }
     let number = words.iter().find_map(|word| word.parse::<u32>().ok());
     if has(&["gyro", "gyroadc", "rate", "rates", "rollspeed", "pitchspeed", "yawspeed", "p", "q", "r"])
         && !has(&["motor", "rotor", "esc"])
@@ -82,7 +94,7 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
         return Some(LogColumn::Rate { axis, factor });
     }
     let motor = number?;
-    if has(&["rpm", "erpm"]) {
+    if has(&["rpm"]) {
         return Some(LogColumn::MotorSpeed { motor, rev_s: 1.0 / 60.0 });
     }
     if has(&["rad"]) && has(&["s"]) {
@@ -97,6 +109,45 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
     let is_bare = words.first().is_some_and(|word| ["motor", "rotor", "esc", "m"].contains(&word.as_str()))
         && words.iter().skip(1).all(|word| word.parse::<u32>().is_ok() || ["us", "v"].contains(&word.as_str()));
     (is_command || is_bare).then_some(LogColumn::MotorCommand { motor })
+}
+
+/// An electrical speed: "erpm" stands at a place among the words. "erpm100" means hundreds of rpm, and "14_poles" the motor.
+fn electrical_column(words: &[String], at: usize) -> Option<LogColumn> {
+    let number = |index: usize| words.get(index)?.parse::<u32>().ok();
+    let hundreds = Some(at + 1).filter(|index| number(*index) == Some(100));
+    let of_poles = words.iter().position(|word| word == "poles");
+    let poles_at = of_poles.and_then(|index| index.checked_sub(1));
+    let motor =
+        (0..words.len()).filter(|index| Some(*index) != hundreds && Some(*index) != poles_at).find_map(number)?;
+    if of_poles.is_none() {
+        return Some(LogColumn::ElectricalSpeed { motor, is_in_hundreds: hundreds.is_some() });
+    }
+    let poles = number(poles_at?).filter(|poles| (2..=POLES_MAX).contains(poles) && poles.is_multiple_of(2))?;
+    let rpm = if hundreds.is_some() { HUNDREDS_RPM } else { 1.0 };
+    Some(LogColumn::MotorSpeed { motor, rev_s: rpm * rev_s_of_electrical_rpm(f64::from(poles)) })
+}
+
+/// Quantity of a header of `blackbox_decode`, Betaflight's own: motors count from 0, and electrical speeds are in hundreds of rpm.
+pub(super) fn column_of_blackbox(header: &str) -> Option<LogColumn> {
+    let is_of_motor = header.starts_with("motor[") || is_electrical_of_blackbox(header);
+    Some(match column_of(header)? {
+        LogColumn::MotorCommand { motor } if is_of_motor => LogColumn::MotorCommand { motor: motor + 1 },
+        LogColumn::ElectricalSpeed { motor, .. } if is_of_motor => {
+            LogColumn::ElectricalSpeed { motor: motor + 1, is_in_hundreds: true }
+        }
+        other => other,
+    })
+}
+
+/// Whether these are headers of `blackbox_decode`.
+pub(super) fn are_of_blackbox(headers: &[String]) -> bool {
+    let has = |wanted: &str| headers.iter().any(|header| header == wanted);
+    has("loopIteration") || has("time (us)") && headers.iter().any(|header| is_electrical_of_blackbox(header))
+}
+
+/// "eRPM[0]" or, from older versions, "eRPM(/100)[0]".
+fn is_electrical_of_blackbox(header: &str) -> bool {
+    header.starts_with("eRPM[") || header.starts_with("eRPM(/100)[")
 }
 
 /// The unit in the brackets of a header, as in "Torque (N·m)"; empty without one.
@@ -145,7 +196,7 @@ mod tests {
 
     #[test]
     fn headers_as_programs_write_them() {
-        use LogColumn::{MotorCommand, MotorSpeed, Rate, Time, TimeWithoutUnit, Torque};
+        use LogColumn::{ElectricalSpeed, MotorCommand, MotorSpeed, Rate, Time, TimeWithoutUnit, Torque};
         let deg = TAU / 360.0;
         for (header, column) in [
             ("time_s", Time { factor: 1.0 }),
@@ -170,6 +221,12 @@ mod tests {
             ("speed_2_rad_s", MotorSpeed { motor: 2, rev_s: 1.0 / TAU }),
             ("esc[0].esc_rpm", MotorSpeed { motor: 0, rev_s: 1.0 / 60.0 }),
             ("rotor3_speed_rev_s", MotorSpeed { motor: 3, rev_s: 1.0 }),
+            ("eRPM[2]", ElectricalSpeed { motor: 2, is_in_hundreds: false }),
+            ("eRPM(2)", ElectricalSpeed { motor: 2, is_in_hundreds: false }),
+            ("erpm_2", ElectricalSpeed { motor: 2, is_in_hundreds: false }),
+            ("eRPM(/100)[2]", ElectricalSpeed { motor: 2, is_in_hundreds: true }),
+            ("rotor2_erpm_14_poles", MotorSpeed { motor: 2, rev_s: 2.0 / 14.0 / 60.0 }),
+            ("rotor2_erpm100_12_poles", MotorSpeed { motor: 2, rev_s: 100.0 * (2.0 / 12.0 / 60.0) }),
             ("Torque (N·m)", Torque { factor: 1.0 }),
             ("torque_n_m", Torque { factor: 1.0 }),
             ("torque [mN m]", Torque { factor: 1e-3 }),
@@ -191,6 +248,9 @@ mod tests {
             "esc[0].esc_current",
             "acc[0]",
             "rotor1_speed_setpoint_rad_s",
+            "erpm",
+            "rotor1_erpm100_7_poles",
+            "rotor1_erpm_0_poles",
         ] {
             assert_eq!(column_of(header), None, "{header}");
         }

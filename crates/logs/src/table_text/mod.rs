@@ -6,10 +6,11 @@ mod column;
 mod tests;
 
 use crate::byte_window::ByteWindow;
+use crate::electrical::UNIT_OF_HUNDREDS;
 use crate::table::{Findings, RowSink, RowValues, SignalRole, TableSignal};
-use crate::{LogError, LogFormat};
+use crate::{LogError, LogFormat, NamedColumn};
 pub use cells::CsvCells;
-use column::{LogColumn, column_of, unit_of};
+use column::{LogColumn, are_of_blackbox, column_of, column_of_blackbox, unit_of};
 use csv::ByteRecord;
 use std::io::Read;
 
@@ -68,6 +69,8 @@ impl ColumnNames {
 struct Column {
     index: usize,
     header: String,
+    /// The name that the user gave it.
+    name: Option<String>,
     meaning: Option<LogColumn>,
     signal: TableSignal,
     factor: f64,
@@ -152,16 +155,18 @@ impl Column {
 }
 
 fn columns_of(headers: &[String], names: &ColumnNames, format: LogFormat) -> Result<Vec<Column>, LogError> {
+    let is_of_blackbox = are_of_blackbox(headers);
     let column = |(index, header): (usize, &String)| {
         let named = names.names.iter().find(|name| name.header == *header);
         let meaning = match named {
             Some(name) => Some(name.meaning),
             None if format == LogFormat::RcBenchmark => meaning_of_rcbenchmark(header),
+            None if is_of_blackbox => column_of_blackbox(header),
             None => column_of(header),
         };
-        let name = named.map_or(header, |name| &name.name);
-        let (signal, factor) = signal_of(name, meaning);
-        Column { index, header: header.clone(), meaning, signal, factor }
+        let name = named.map(|name| name.name.clone());
+        let (signal, factor) = signal_of(name.as_ref().unwrap_or(header), meaning);
+        Column { index, header: header.clone(), name, meaning, signal, factor }
     };
     let columns: Vec<Column> = headers.iter().enumerate().map(column).collect();
     if format != LogFormat::RcBenchmark {
@@ -185,6 +190,11 @@ fn signal_of(name: &str, meaning: Option<LogColumn>) -> (TableSignal, f64) {
     let with_role = |role: SignalRole| TableSignal::with_role(name.to_owned(), role);
     match meaning {
         Some(LogColumn::MotorSpeed { motor, rev_s }) => (with_role(SignalRole::RotorSpeed(motor)), rev_s),
+        Some(LogColumn::ElectricalSpeed { motor, is_in_hundreds }) => {
+            let unit = if is_in_hundreds { UNIT_OF_HUNDREDS } else { "" };
+            let signal = with_role(SignalRole::ElectricalSpeed(motor));
+            (TableSignal { unit: unit.to_owned(), ..signal }, 1.0)
+        }
         Some(LogColumn::MotorCommand { motor }) => (with_role(SignalRole::Command(motor)), 1.0),
         Some(LogColumn::Torque { factor }) => (with_role(SignalRole::Torque), factor),
         Some(LogColumn::Rate { axis, factor }) => (with_role(SignalRole::BodyRate(axis)), factor),
@@ -201,7 +211,9 @@ fn refuse_twice(columns: &[Column]) -> Result<(), LogError> {
     for (index, column) in columns.iter().enumerate() {
         let Some(role) = column.signal.role else { continue };
         if let Some(first) = columns[..index].iter().find(|first| first.signal.role == Some(role)) {
-            return Err(LogError::Twice { first: first.header.clone(), second: column.header.clone() });
+            let [first, second] = [first, column]
+                .map(|Column { header, name, .. }| NamedColumn { header: header.clone(), name: name.clone() });
+            return Err(LogError::Twice { first, second });
         }
     }
     Ok(())

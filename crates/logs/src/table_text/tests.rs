@@ -1,6 +1,6 @@
 //! Logs as programs write them, and as they should not be.
 
-use crate::{ColumnNames, LogError, LoggedFlight, flight_from_log};
+use crate::{ColumnNames, ElectricalColumn, LogError, LoggedFlight, flight_from_log};
 use std::f64::consts::TAU;
 
 fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, LogError> {
@@ -66,4 +66,48 @@ fn what_means_nothing_is_refused_with_what_to_do() {
 fn empty_cells_behind_the_last_header_and_missing_cells_are_no_fault() {
     let log = flight_log_from_csv("time_s,motor1_pwm\n0,1,\n1,2, ,\n2\n").unwrap();
     assert_eq!(log.commands.unwrap().values[0][..2], [1.0, 2.0]);
+}
+
+/// The eRPM columns of Betaflight are no speeds of rotors before the number of magnetic poles is known; motors count from 0 there.
+#[test]
+fn electrical_speeds_need_the_number_of_poles() {
+    let text = "loopIteration, time (us), motor[0], motor[1], eRPM[0], eRPM[1]\n0,1000000,1700,1710,253,252\n1,1004000,1700,1710,254,252\n";
+    let log = flight_log_from_csv(text).unwrap();
+    assert_eq!(log.commands.unwrap().names, ["motor 1", "motor 2"]);
+    assert_eq!(log.speeds_rev_s, None);
+    let electrical = log.electrical.unwrap();
+    assert_eq!(electrical.motors.names, ["motor 1", "motor 2"]);
+    assert_eq!(electrical.motors.values, [[253.0, 254.0], [252.0, 252.0]]);
+    let named = |columns: &[ElectricalColumn]| -> Vec<(String, String)> {
+        columns.iter().map(|column| (column.header.clone(), column.name_with_poles.clone())).collect()
+    };
+    let columns = named(&electrical.columns);
+    assert_eq!(columns[1], ("eRPM[1]".to_owned(), "rotor2_erpm100_14_poles".to_owned()));
+    // each proposed name makes its column a rotor speed
+    let mut names = ColumnNames::default();
+    columns.iter().for_each(|(header, name)| names.add(header, name).unwrap());
+    let named = flight_from_log(text.as_bytes(), &names).unwrap();
+    let speeds = named.speeds_rev_s.unwrap();
+    assert_eq!((speeds.names.len(), named.electrical), (2, None));
+    assert!((speeds.values[0][0] - 253.0 * 100.0 / 7.0 / 60.0).abs() < 1e-9, "{:?}", speeds.values);
+    // without the other columns of blackbox_decode, unit and first number are not known
+    let log = flight_log_from_csv("time_s,erpm_0\n0,25300\n1,25300\n").unwrap();
+    let electrical = log.electrical.unwrap();
+    assert_eq!(
+        (electrical.motors.names, &*electrical.columns[0].name_with_poles),
+        (vec!["motor 0".to_owned()], "rotor0_erpm_14_poles")
+    );
+}
+
+/// A new name may be that of another column: the message says where the name comes from.
+#[test]
+fn a_name_that_another_column_has_is_told_with_its_source() {
+    let mut names = ColumnNames::default();
+    names.add("rpm[0]", "rotor1_rpm").unwrap();
+    let error = flight_from_log(b"time_s,rpm[0],rpm[1]\n0,1,1\n".as_slice(), &names).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "columns \"rpm[0]\" (with the name rotor1_rpm from --column) and \"rpm[1]\" are read as the same signal"
+    );
+    assert!(error.hint().contains("different names"), "{}", error.hint());
 }

@@ -93,12 +93,15 @@ pub(super) fn better_elsewhere(
         let speed_rev_s = ratio * first.hover_rev_s;
         let levels_nats = 0.5 * (short_nats + long.nats(&propeller.lines, ratio) - own_nats);
         let nats = levels_nats + prior_nats(speed_rev_s) - own_prior_nats;
-        Some((nats, OtherRotor { blades: propeller.lines.blades?, speed_rev_s }))
+        Some((nats, levels_nats, OtherRotor { blades: propeller.lines.blades?, speed_rev_s }))
     });
-    let far_better = odds.filter(|(nats, _)| *nats >= odds_nats(config.belief_min));
-    // of several, one with the blades that are known: the speed alone is wrong then
-    let has_own_blades = |other: &OtherRotor| other.blades == own_blades;
+    let far_better = odds.filter(|(nats, ..)| *nats >= odds_nats(config.belief_min));
+    // of several, one with the blades that are known: the speed alone is wrong then; else the one that the other facts make most probable
+    let rank = |levels_nats: f64, other: &OtherRotor| {
+        (other.blades == own_blades, levels_nats + nats_of_vehicle(other.speed_rev_s, &wanted.known, config))
+    };
     far_better
-        .max_by(|(a, one), (b, other)| has_own_blades(one).cmp(&has_own_blades(other)).then(a.total_cmp(b)))
+        .map(|(_, levels_nats, other)| (rank(levels_nats, &other), other))
+        .max_by(|((own, a), _), ((other_own, b), _)| own.cmp(other_own).then(a.total_cmp(b)))
         .map(|(_, other)| other)
 }

@@ -86,7 +86,7 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
             reading.thrust_coefficient = Some(thrust_coefficient);
             let (low, high) = (config.thrust_coefficient_min, config.thrust_coefficient_max);
             if !(low..=high).contains(&thrust_coefficient) {
-                against.push(format!("C_T is not between {low} and {high}, as of propellers"));
+                against.push(format!("its C_T would be outside the range of propellers, {low} to {high}"));
             }
         }
     }

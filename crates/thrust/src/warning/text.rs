@@ -3,8 +3,8 @@
 use super::ThrustWarning;
 use crate::statistics::COVERAGE_FACTOR;
 use crate::warning_words::{
-    differ_text, drift_text, either_mass_text, first_names, foreign_text, groups_text, mass_text, misfit_text,
-    probability_text, range_text, ratio_text, short_text,
+    RangeDoubt, differ_text, drift_text, either_mass_text, first_names, foreign_text, groups_text, incomplete_text,
+    mass_text, misfit_text, probability_text, range_text, ratio_text, short_text,
 };
 use std::fmt;
 
@@ -63,7 +63,7 @@ impl fmt::Display for ThrustWarning {
             Self::OneRecordingEach { load_count } => f.write_str(one_each_text(*load_count)),
             Self::EqualLoads { count: 2 } => f.write_str("both loads have the same force, or nearly so"),
             Self::EqualLoads { count } => write!(f, "all {count} loads have the same force, or nearly so"),
-            Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
+            Self::NarrowLoadRange(range) => f.write_str(&range_text(range, RangeDoubt::Speeds)),
             Self::OtherLawPreferred { law, probability } => {
                 write!(f, "the law {} fits the forces better than F = C_f ω² (probability of this law: {})", law.formula(), probability_text(*probability))
             }
@@ -74,9 +74,7 @@ impl fmt::Display for ThrustWarning {
             Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
                 write!(f, "the figure of merit (ideal power over measured power) is {} (\"{name}\"), and no rotor has that", short_text(*figure_of_merit, 3))
             }
-            Self::UncertaintiesIncomplete { stated, of } => {
-                write!(f, "only {stated} of {of} rows have an uncertainty above 0: the ± comes from the scatter of all rows")
-            }
+            Self::UncertaintiesIncomplete { stated, of } => f.write_str(&incomplete_text(*stated, *of)),
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the mass of the vehicle, {:.1} g, comes from a preset or a model: this vehicle was not weighed", 1e3 * mass_kg)
             }

@@ -20,10 +20,19 @@ fn lists_patterns_and_names_are_inputs_and_a_missing_one_is_a_row() {
     let pattern = folder.path().join("archive/*/*.wav");
     batch(&pattern, &folder.path().join("matched"), &[]).ends_with(0);
     assert_eq!(table(&folder.path().join("matched/recordings.parquet")).num_rows(), 4);
-    for (input, words) in
-        [("archive/*.flac", "no file matches"), ("nowhere", "no such file"), ("empty", "has no recordings")]
-    {
-        fs::create_dir_all(folder.path().join("empty")).unwrap();
+    // a pattern of folders means their recordings
+    let folders = folder.path().join("arch*");
+    batch(&folders, &folder.path().join("of folders"), &[]).ends_with(0);
+    assert_eq!(table(&folder.path().join("of folders/recordings.parquet")).num_rows(), 4);
+    fs::create_dir_all(folder.path().join("empty")).unwrap();
+    fs::create_dir_all(folder.path().join("notes")).unwrap();
+    fs::write(folder.path().join("notes/a.txt"), "").unwrap();
+    for (input, words) in [
+        ("archive/*.flac", "no file matches"),
+        ("nowhere", "no such file"),
+        ("empty", "has no recordings"),
+        ("not*", "the folders that match this pattern have no recordings"),
+    ] {
         let run = hovertone_with(&["batch", input, "-o", "none"], |command| command.current_dir(folder.path()));
         assert!(run.code == 1 && run.stderr.contains(words), "{input}: {} {}", run.code, run.stderr);
         assert!(!folder.path().join("none").exists());
