@@ -26,6 +26,12 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
     let mut loads: Vec<LoadDraft> = Vec::new();
     let mut current_kg = None;
     for word in words {
+        if has_plus_minus(word) {
+            return Err(Failure::usage(
+                format!("--mass {word}: a mass has no ± here"),
+                "give the mass alone, as in --mass 413g; an experiment file takes the standard uncertainty as mass_std_kg",
+            ));
+        }
         let (mass, file) = match word.split_once('=') {
             Some((mass, file)) if starts_as_number(mass) => (Some(mass), Some(file)),
             _ if starts_as_number(word) && !Path::new(word).exists() && !word.contains(['/', '*']) && is_mass(word) => {
@@ -45,15 +51,6 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
         }
         if let Some(point) = file.filter(|_| mass.is_none()).and_then(mass_with_point) {
             return Err(Failure::usage(format!("--mass {word}: {DECIMAL_SIGN}"), format!("write --mass {point}")));
-        }
-        if mass.is_none()
-            && word.split('=').next().is_some_and(|mass| mass.contains(['±', '+']))
-            && !Path::new(word).exists()
-        {
-            return Err(Failure::usage(
-                format!("--mass {word}: a mass has no ± here"),
-                "give the mass alone, as in --mass 413g; an experiment file takes the standard uncertainty as mass_std_kg",
-            ));
         }
         let Some(mass_kg) = current_kg else {
             let what = match word.split_once('=') {
@@ -120,6 +117,12 @@ fn unknown_unit(word: &str) -> Option<&str> {
     let is_unit = !unit.is_empty() && unit.chars().all(char::is_alphabetic) && number.parse::<f64>().is_ok();
     // a recording has a point before its ending
     (is_unit && !number.ends_with('.') && !Path::new(word).exists()).then_some(unit)
+}
+
+/// Whether a word begins with a mass and its ±, and is no file.
+fn has_plus_minus(word: &str) -> bool {
+    let mass = word.split('=').next().unwrap_or(word);
+    starts_as_number(mass) && ["±", "+-", "+/-"].iter().any(|sign| mass.contains(sign)) && !Path::new(word).exists()
 }
 
 /// A mass with a decimal comma, where the word is no file, with a point.
