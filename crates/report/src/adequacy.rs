@@ -171,7 +171,7 @@ fn why_one_law(range: Option<LoadRange>, has_misfits: bool) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "the forces differ from F = C ω² by {:.2} % of the largest force (rms); if this law and the stated uncertainties are right, differences as \
+            "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square); if this law and the stated uncertainties are right, differences as \
             large or larger have the chance {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
             p_value_text(agreement.p_value),
@@ -187,7 +187,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
         ),
         None if fit.points.len() > 1 => {
             format!(
-                "the forces differ from F = C ω² by {:.2} % of the largest force (rms)\n",
+                "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square)\n",
                 100.0 * fit.residual_rms_share
             )
         }

@@ -24,7 +24,7 @@ impl Verdict {
             table.loads.iter().filter(|load| load.fits == Some(false)).map(|load| load.name.as_str()).collect();
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
             format!(
-                " (chance of such differences or larger ones between loads that agree: {})",
+                " ({}: the probability that loads which agree differ by chance as much as here, or more)",
                 p_value_text(agreement.p_value)
             )
         });

@@ -130,7 +130,9 @@ const MOVING_SHARE: f64 = 0.002;
 fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
     let time = match (100.0 * family.time_share).round() {
         100.0 => "all the time".to_owned(),
-        percent => format!("{percent:.0} % of the time ({:.1}–{:.1} s)", family.span.from_s, family.span.to_s),
+        percent => {
+            format!("from {:.1} to {:.1} s, in {percent:.0} % of the recording", family.span.from_s, family.span.to_s)
+        }
     };
     let fundamental = significant(family.fundamental_hz, digits(family));
     let lines = match family.harmonics.len() {

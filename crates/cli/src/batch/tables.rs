@@ -56,8 +56,9 @@ impl Written {
             in_list(&kinds, "or"),
             self.unsure.join(", ")
         );
+        let these = if count == 1 { "this recording" } else { "one of these recordings" };
         let hint = format!(
-            "run `hovertone speed` with one of these recordings and the same flags: it says why, and what to do; {} shows all recordings",
+            "run `hovertone speed` with {these} and the same flags: it says why, and what to do; {} shows all recordings",
             overview.display()
         );
         (count > 0).then(|| Notice::new(text, hint))

@@ -162,7 +162,7 @@ pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Opt
     let ratio = heard.rpm() / rpm;
     let is_near = |of_slip: f64, share: f64| (ratio / of_slip - 1.0).abs() < share;
     if is_near(SECONDS_PER_MINUTE, ROTORS_SHARE) {
-        return Some(format!(". {}", in_turns_per_second(rpm)));
+        return Some(format!(". But first check the unit. {}", in_turns_per_second(rpm)));
     }
     let about = ROUNDED_RPM * (heard.rpm() / ROUNDED_RPM).round();
     let of_known = |slip: f64| match slip {
@@ -310,25 +310,25 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let off = in_ppm(check.correction_ppm.abs(), check.correction_std_ppm);
         format!("it runs {direction} by {off}")
     } else {
-        let off = in_ppm(check.correction_ppm, check.correction_std_ppm);
-        format!("its error is {off}, so it may run fast, slow or right")
+        format!("its error is {}", in_ppm(check.correction_ppm, check.correction_std_ppm))
     };
     let advice = match judgement {
         // each of the two alone would leave it open
         Judgement::Undecided if comparison.least_expanded_ppm() >= arguments.clock_ppm => {
-            "; neither the known number nor the sound is exact enough: give the known number with its uncertainty (--known-std-ppm), and make a \
-             longer recording"
+            ". Neither the known number nor the sound is exact enough: measure the known number more exactly, give its uncertainty with \
+             --known-std-ppm, and make a longer recording"
         }
         Judgement::Undecided if comparison.is_known_the_less_exact() => {
-            "; most of the ± comes from the known number: measure it more exactly, and give its \
+            ". Most of the ± comes from the known number: measure it more exactly, and give its new \
              uncertainty with --known-std-ppm"
         }
-        Judgement::Undecided => "; most of the ± comes from the sound: make a longer recording",
+        Judgement::Undecided => ". Most of the ± comes from the sound: make a longer recording",
         _ => "",
     };
     let (verdict, limit_ppm) = (word(judgement), arguments.clock_ppm);
+    let why = if judgement == Judgement::Undecided { ", so that the ± is too large to decide" } else { "" };
     let mut text = format!(
-        "clock: {verdict}, {off} (millionths, k = 2); an error of up to {limit_ppm} ppm passes (--clock-ppm){advice}\n"
+        "clock: {verdict}, {off} (millionths, k = 2); an error of up to {limit_ppm} ppm passes (--clock-ppm){why}{advice}\n"
     );
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {

@@ -84,7 +84,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
                 terminal.data("\n")?;
             }
             terminal.flush()?;
-            terminal.warning_count_of(table.notices.len(), (!is_alone).then(|| table.name()).as_deref());
+            terminal.warning_count_of(table.notices.len(), (!is_alone).then(|| group_of_file(&table)).as_deref());
             let hints = table.notices.iter().skip(1).map(|next| next.hint.as_str()).chain([""]);
             for (notice, next_hint) in table.notices.iter().zip(hints) {
                 // one advice for several stands below the last of them
@@ -291,4 +291,9 @@ fn merit_of(group: &StandGroup, points: &[ForcePoint], rotor_count: u32, plan: &
     let rows = group.rows.iter().zip(points).filter_map(|(row, point)| Some((point.force_n, row.power_w?)));
     let (thrust_n, power_w) = rows.max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(figure_of_merit(thrust_n / rotors, power_w / rotors, plan.diameter_m?, plan.density_kg_m3?))
+}
+
+/// "Tarot 4114 (in stand.csv)", or the file alone.
+fn group_of_file(table: &FittedTable) -> String {
+    if table.group.is_empty() { table.file.clone() } else { format!("{} (in {})", table.group, table.file) }
 }

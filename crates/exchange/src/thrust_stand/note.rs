@@ -122,10 +122,10 @@ impl TableNote {
                     quoted(stated, " and ")
                 );
             }
-            Self::Expanded { stated, .. } => {
+            Self::Expanded { column, stated, .. } => {
                 return format!(
-                    "if they are standard uncertainties (k = 1), write std in place of {}, as in thrust_std_g",
-                    quoted(stated, " and ")
+                    "if they are standard uncertainties (k = 1), rename the column to \"{}\"",
+                    with_std(column, stated)
                 );
             }
             Self::CoverageUnknown { stated, .. } => {
@@ -245,4 +245,11 @@ mod tests {
         assert!(two.hint().contains("one of these columns"), "{}", two.hint());
         assert_eq!(TableNote::TurnedRound.hint(), "");
     }
+}
+
+/// The name of a column with "std" in place of what makes its numbers expanded uncertainties.
+fn with_std(column: &str, stated: &[String]) -> String {
+    let without = stated.iter().fold(column.to_owned(), |name, part| name.replacen(part, "", 1)).replace("()", "");
+    let words: Vec<&str> = without.split(['_', ' ']).filter(|word| !word.is_empty()).collect();
+    format!("std_{}", words.join("_"))
 }

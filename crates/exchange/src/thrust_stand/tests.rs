@@ -217,16 +217,16 @@ fn a_note_about_rows_belongs_to_their_group() {
 fn an_expanded_uncertainty_is_divided_by_its_factor_and_said() {
     for (header, factor, advice) in [
         ("thrust_expanded_uncertainty_g", 2.0, "remove \"expanded\" from the name"),
-        ("U_thrust_g", 2.0, "write std in place of \"U\""),
+        ("U_thrust_g", 2.0, "rename the column to \"std_thrust_g\""),
         ("thrust_uncertainty_k2_g", 2.0, "remove \"k2\" from the name"),
         ("thrust_g_std_k=2", 2.0, "remove \"k=2\" from the name"),
         ("thrust_std_g (k = 2)", 2.0, "remove \"k = 2\" from the name"),
         ("thrust_uncertainty_k=3_g", 3.0, "remove \"k=3\" from the name"),
-        ("thrust_expanded_k=2.5_g", 2.5, "write std in place of \"expanded\" and \"k=2.5\""),
+        ("thrust_expanded_k=2.5_g", 2.5, "rename the column to \"std_thrust_g\""),
         ("thrust_uncertainty_95%_g", 2.0, "remove \"95%\" from the name"),
         ("Thrust uncertainty 99.7 % (g)", 3.0, "remove \"99.7 %\" from the name"),
-        ("±thrust_g", 2.0, "write std in place of \"±\""),
-        ("+-thrust_g", 2.0, "write std in place of \"+-\""),
+        ("±thrust_g", 2.0, "rename the column to \"std_thrust_g\""),
+        ("+-thrust_g", 2.0, "rename the column to \"std_thrust_g\""),
     ] {
         // the thrust is the second column, so that the first could be taken for it
         let table = table_from_csv(&format!("rpm;{header};thrust_g\n3000;2;100\n4000;3;180\n")).unwrap();
@@ -238,7 +238,7 @@ fn an_expanded_uncertainty_is_divided_by_its_factor_and_said() {
             format!("is read as expanded uncertainties with k = {factor}, so its numbers are divided by {factor}");
         assert!(note.to_string().contains(&words) && note.hint().contains(advice), "{note} {}", note.hint());
     }
-    for header in ["thrust_std_g", "thrust_uncertainty_68%_g", "u(thrust)_g", "U_thrust_g (k=1)"] {
+    for header in ["thrust_std_g", "std_thrust_g", "thrust_uncertainty_68%_g", "u(thrust)_g", "U_thrust_g (k=1)"] {
         let table = table_from_csv(&format!("rpm;thrust_g;{header}\n3000;100;2\n4000;180;3\n")).unwrap();
         assert!((table.groups[0].rows[0].force_std.unwrap() - 2e-3 * 9.80665).abs() < 1e-9, "{header}");
         assert!(table.notes.is_empty(), "{header}: {:?}", table.notes);
