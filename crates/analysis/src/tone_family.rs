@@ -64,7 +64,7 @@ impl Remark {
     pub fn text(self) -> &'static str {
         match self {
             Self::NearMains => "mains hum (?)",
-            Self::Brief => "short tone (a beep or a call?)",
+            Self::Brief => "short tone (perhaps a beep or a voice)",
             Self::SingleLine => "single line",
             Self::GearMesh => "tone of the rotors' gear",
         }

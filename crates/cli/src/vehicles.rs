@@ -104,8 +104,11 @@ pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
     let known = names_in_flight_model();
     let list = known.join(", ");
     if preset(name).is_ok() {
-        let hint = format!("this command needs a vehicle with a flight model: {list}");
-        return (format!("the vehicle \"{name}\" has no flight model"), hint);
+        let hint = format!("only these have one: {list}; the numbers of one vehicle are wrong for another");
+        return (
+            format!("the vehicle \"{name}\" has no flight model (the numbers of its motors and of its controller)"),
+            hint,
+        );
     }
     let hint = match nearest(name, known) {
         Some(nearest) => format!("did you mean \"{nearest}\"? Vehicles with a flight model: {list}"),

@@ -105,7 +105,7 @@ fn row(sheet: &Sheet<'_, '_>, trial: &Trial<'_>, top: i32, at: &impl Fn(f64) -> 
     sheet.text(&shortened(trial.recording, 30), Point::new(60, top + ROW / 2 - 4), Anchor::Left, MUTED)?;
     let Some(analysis) = trial.analysis else {
         let at = Point::new(LEFT + 12, top);
-        return words(sheet, trial.reason.map_or("could not be heard", without_advice), at, WIDTH - 60);
+        return words(sheet, trial.reason.map_or("could not be read", without_advice), at, WIDTH - 60);
     };
     let Some(tone) = trial.tone() else {
         sheet.filled(bar(analysis.heard, 6, ROW - 14), GRID, 0.6)?;

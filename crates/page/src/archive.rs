@@ -65,7 +65,7 @@ impl ArchiveRecording {
             "ok" if self.warnings.is_empty() => ("holds", "✓", "done"),
             "ok" => ("doubt", "!", "done, with warnings"),
             "ambiguous" => ("doubt", "?", "ambiguous"),
-            "error" => ("fails", "✗", "could not be heard"),
+            "error" => ("fails", "✗", "could not be read"),
             _ => ("fails", "–", "no speed"),
         }
     }

@@ -171,8 +171,8 @@ fn why_one_law(range: Option<LoadRange>, has_misfits: bool) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square); if this law and the stated uncertainties are right, differences as \
-            large or larger have the chance {} (χ² = {}, {} degree{} of freedom){}\n",
+            "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square); if this law and the stated uncertainties are right, chance \
+            alone makes differences as large, or larger, with a probability of {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
             p_value_text(agreement.p_value),
             significant(agreement.chi_square, 3),
@@ -180,7 +180,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
             fit.widening().map_or(String::new(), |factor| {
                 format!(
-                    "; therefore the ± of C_f is {} times as large as from the stated uncertainties alone: it includes the scatter, and that the points are few",
+                    ". The points scatter more than stated, so the ± of C_f is {} times as large as from the stated uncertainties alone",
                     significant(factor, 2)
                 )
             })

@@ -240,7 +240,7 @@ pub(crate) fn torque_constant_text(told: Result<(Estimate, String), String>) -> 
             let scaled = scaled_number(constant.value, constant.std_uncertainty);
             format!("torque constant C_τ of one rotor: ({}) 1e{} N m s²{how}\n", scaled.digits, scaled.exponent)
         }
-        Err(reason) => format!("torque constant C_τ: not known, because {reason}\n"),
+        Err(reason) => format!("torque constant C_τ of one rotor (its torque over ω²): not known, because {reason}\n"),
     }
 }
 

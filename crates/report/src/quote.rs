@@ -111,7 +111,7 @@ pub(crate) fn quoted(constant: Estimate) -> String {
     format!("({digits}) {}", unit.unit(CONSTANT_UNIT))
 }
 
-/// "rotors separated in 9 recordings, heard as a group in 6"; `None` where one tone is used for all. In `partly` of the recordings with separated
+/// "rotors separated in 9 recordings, heard as a group in 6 other recordings"; `None` where one tone is used for all. In `partly` of the recordings with separated
 /// rotors, some could not be separated.
 pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<String> {
     if counts.separated + counts.group == 0 {
@@ -132,7 +132,10 @@ pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<Str
     let parts: Vec<String> = parts
         .into_iter()
         .filter(|(count, _)| *count > 0)
-        .map(|(count, how)| format!("{how} in {}", counted(count, "recording")))
+        .enumerate()
+        .map(|(at, (count, how))| {
+            format!("{how} in {}", counted(count, if at == 0 { "recording" } else { "other recording" }))
+        })
         .collect();
     Some(format!("{subject}{}", parts.join(", ")))
 }

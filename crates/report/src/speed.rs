@@ -59,7 +59,7 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
                     );
                 }
             }
-            None if record.has_failed() => table.push_words(name(record), "could not be heard".to_owned()),
+            None if record.has_failed() => table.push_words(name(record), "could not be read".to_owned()),
             None if record.is_ambiguous() => {
                 table.push_words(name(record), "possible speeds, each with its plausibility:".to_owned());
                 let readings = record.alternatives();

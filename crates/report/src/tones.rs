@@ -65,7 +65,7 @@ impl<'a> From<&'a Reading> for ReadingLine<'a> {
 pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     let mut text = format!("{}\n", printable(&record.file));
     if record.has_failed() {
-        return text + "could not be heard\n";
+        return text + "could not be read\n";
     }
     let Some(found) = record.found.as_ref() else { return text };
     let rotor = found.rotor.filter(|_| record.tone().is_some());
@@ -131,7 +131,10 @@ fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
     let time = match (100.0 * family.time_share).round() {
         100.0 => "all the time".to_owned(),
         percent => {
-            format!("from {:.1} to {:.1} s, in {percent:.0} % of the recording", family.span.from_s, family.span.to_s)
+            format!(
+                "on and off from {:.1} to {:.1} s, in {percent:.0} % of the recording",
+                family.span.from_s, family.span.to_s
+            )
         }
     };
     let fundamental = significant(family.fundamental_hz, digits(family));
@@ -266,7 +269,9 @@ fn readings_in_a_line(family: &ToneFamily, of_rotor: Option<&str>) -> String {
             format!("{INDENT}no rotor{which} can have this tone ({why})\n")
         }
         false => match of_rotor {
-            Some(of_rotor) => format!("{INDENT}{of_rotor}; if it is the tone of a rotor: {}\n", words.join(" · ")),
+            Some(of_rotor) => {
+                format!("{INDENT}{of_rotor}\n{INDENT}if not, and if it is the tone of a rotor: {}\n", words.join(" · "))
+            }
             None => format!("{INDENT}if it is the tone of a rotor: {}\n", words.join(" · ")),
         },
     }

@@ -1,7 +1,7 @@
 //! How many recordings have a speed, and how many have none and why.
 
 use hovertone_archive::Summary;
-use hovertone_report::{SpeedRecord, counted};
+use hovertone_report::SpeedRecord;
 use serde::Serialize;
 use std::fmt;
 
@@ -101,8 +101,8 @@ impl fmt::Display for Counts {
             write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }
         if self.cut_short > 0 {
-            let verb = if self.cut_short == 1 { "ends" } else { "end" };
-            write!(f, "; {} {verb} too early", counted(self.cut_short, "recording"))?;
+            let verb = if self.cut_short == 1 { "is" } else { "are" };
+            write!(f, "; {} of these {verb} not complete: the end of the file is missing", self.cut_short)?;
         }
         Ok(())
     }

@@ -240,7 +240,7 @@ fn what_cannot_be_heard_says_why() {
     browser.wait_for("document.querySelectorAll('.recording .nospeed').length === 3", PATIENCE);
     browser.wait_for("document.querySelector('div.fault')", PATIENCE);
     let cards = browser.text("document.querySelector('[aria-label=Recordings]').innerText");
-    for words in ["could not be heard", "not an audio or video file", "no rotor tone", "there is nothing in it"] {
+    for words in ["could not be read", "not an audio or video file", "no rotor tone", "there is nothing in it"] {
         assert!(cards.contains(words), "{words}: {cards}");
     }
     let fault = browser.text("document.querySelector('div.fault').innerText");

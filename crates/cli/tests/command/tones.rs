@@ -147,7 +147,7 @@ fn a_file_that_cannot_be_heard_ends_with_1() {
     let folder = tempfile::tempdir().unwrap();
     let missing = folder.path().join("missing.wav");
     let run = hovertone(&["tones", text(&missing)]).ends_with(1);
-    assert!(run.stderr.contains("error:") && run.stdout.contains("could not be heard"), "{}{}", run.stdout, run.stderr);
+    assert!(run.stderr.contains("error:") && run.stdout.contains("could not be read"), "{}{}", run.stdout, run.stderr);
     assert_eq!(hovertone(&["tones", "--json", text(&missing)]).ends_with(1).json_lines()[0]["status"], "error");
 }
 

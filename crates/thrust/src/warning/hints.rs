@@ -24,7 +24,7 @@ impl ThrustWarning {
                 "do not use this constant: check masses, units and tone of both loads, and which recording belongs to which load"
             }
             Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
-                "check that each recording is under the right [[load]]; if so, check it alone with `hovertone speed`"
+                "check that each recording is under the right [[load]]; if so, run `hovertone speed` on each of them: its warnings say which speed is doubtful"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
                 "do not use this constant: check the decimal point and the unit of this mass; a load needs its mass as flown, vehicle and added mass together; check the name of the vehicle too"

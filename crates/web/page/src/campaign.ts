@@ -122,7 +122,7 @@ export interface Verdict {
 /** What a trial is worth. */
 export function verdictOf(trial: Recording): Verdict {
   const { answer, fault } = trial;
-  if (!answer) return { isGood: false, words: fault ?? "It could not be heard." };
+  if (!answer) return { isGood: false, words: fault ?? "It could not be read." };
   if (!answer.speed) return { isGood: false, words: REASONS[answer.status] };
   const hoverS = answer.hover_s.reduce((sum, [fromS, toS]) => sum + toS - fromS, 0);
   if (hoverS < HOVER_S_MIN) return { isGood: false, words: `Only ${hoverS.toFixed(1)} s of it hover quietly.` };
@@ -131,7 +131,7 @@ export function verdictOf(trial: Recording): Verdict {
 
 const REASONS: Record<Answer["status"], string> = {
   ok: "",
-  error: "It could not be heard.",
+  error: "It could not be read.",
   no_rotor_tone: "No rotor was heard. Come closer, and keep other noise away.",
   ambiguous: "Several speeds are possible: say the blades of a propeller under Vehicle.",
 };

@@ -106,7 +106,7 @@ function Speed({ answer }: { answer: Answer }) {
   );
 }
 
-const TITLES = { error: "could not be heard", no_rotor_tone: "no rotor tone", ambiguous: "possible speeds, each with its plausibility", ok: "" };
+const TITLES = { error: "could not be read", no_rotor_tone: "no rotor tone", ambiguous: "possible speeds, each with its plausibility", ok: "" };
 
 /** Readings that are less plausible are folded away. */
 const LIKELY = 0.01;
