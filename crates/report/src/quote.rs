@@ -111,8 +111,8 @@ pub(crate) fn quoted(constant: Estimate) -> String {
     format!("({digits}) {}", unit.unit(CONSTANT_UNIT))
 }
 
-/// "rotors separated in 9 recordings, heard as a group in 6 other recordings"; `None` where one tone is used for all. In `partly` of the recordings with separated
-/// rotors, some could not be separated.
+/// "rotors separated in 9 recordings, heard as a group in 6 other recordings"; `None` where one tone is used for all. In `partly` of the
+/// recordings with separated rotors, some could not be separated.
 pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<String> {
     if counts.separated + counts.group == 0 {
         return None;
