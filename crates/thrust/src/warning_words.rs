@@ -153,7 +153,7 @@ pub(crate) fn misfit_text(
     mass_that_fits_kg: Option<(f64, Option<f64>)>,
     is_left_out: bool,
 ) -> String {
-    let of = if is_row { format!("{name} of the table") } else { format!("load \"{name}\"") };
+    let of = if is_row { format!("{name} of the file") } else { format!("load \"{name}\"") };
     let would = match mass_that_fits_kg {
         Some((mass_kg, Some(std_kg))) => {
             format!("; a mass of {:.1} g ± {:.1} g would fit", 1e3 * mass_kg, 1e3 * COVERAGE_FACTOR * std_kg)

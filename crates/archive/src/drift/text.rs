@@ -45,13 +45,13 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         "all recordings of the earlier archive with all of the later one, because no name is in both"
     };
     let or_no_partner = if drift.is_paired { ", or the other archive has no recording of the same name" } else { "" };
-    let unused = match drift.earlier_unused + drift.later_unused {
-        0 => String::new(),
-        _ => format!(
-            "not compared: {} of the earlier archive, {} of the later (no speed was heard{or_no_partner})\n",
-            counted(drift.earlier_unused, "recording"),
-            drift.later_unused
-        ),
+    let of_archive =
+        |count: usize, which: &str| (count > 0).then(|| format!("{} of the {which}", counted(count, "recording")));
+    let unused = [of_archive(drift.earlier_unused, "earlier archive"), of_archive(drift.later_unused, "later archive")];
+    let unused: Vec<String> = unused.into_iter().flatten().collect();
+    let unused = match unused.is_empty() {
+        true => String::new(),
+        false => format!("not compared: {} (no speed was heard{or_no_partner})\n", unused.join(", ")),
     };
     format!(
         "compared: {how}\n{}{}{}{}{unused}{}",

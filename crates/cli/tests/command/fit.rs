@@ -48,7 +48,7 @@ fn the_papers_rows_fit_with_462_g_and_not_with_472() {
     let mass_g = 1e3 * number(misfits[0], "/force_that_fits_n") / 9.8;
     assert!((mass_g - 462.4).abs() < 0.5, "{mass_g}");
     let words = hovertone(&["fit", text(&paper_table(folder.path(), 472)), "--gravity-m-s2", "9.8"]).ends_with(0);
-    assert!(words.stderr.contains("line 4 of the table does not fit the others; a mass of 462."), "{}", words.stderr);
+    assert!(words.stderr.contains("line 4 of the file does not fit the others; a mass of 462."), "{}", words.stderr);
 }
 
 /// Constants and exponents as the README of the recordings has them, to its digits.
@@ -138,7 +138,7 @@ fn bad_tables_are_refused_or_flagged() {
     assert!(said.contains("\ndo not use this constant: C_f, one rotor = "), "{said}");
     // 300 % too heavy
     let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
-    assert!(outlier["notices"].to_string().contains("line 4 of the table does not fit"), "{outlier}");
+    assert!(outlier["notices"].to_string().contains("line 4 of the file does not fit"), "{outlier}");
     assert!(outlier["notices"].to_string().contains("left out"), "{outlier}");
     let said = hovertone(&["fit", text(&path)]).ends_with(0).stdout;
     assert!(said.contains("4 table rows, 1 of them left out of the fit, mass_g against rpm"), "{said}");
