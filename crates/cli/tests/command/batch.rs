@@ -61,11 +61,7 @@ fn each_recording_is_a_row_with_the_numbers_of_speed() {
     let run = batch(&archive, &out, &["--json"]).ends_with(3);
     assert_eq!(run.json_lines()[0]["counts"]["error"], 2);
     let unsure = run.stderr.lines().find(|line| line.contains("1 recording has no speed: ")).unwrap_or_default();
-    assert!(
-        unsure.contains("noise.wav") && unsure.contains("with this recording and the same flags"),
-        "{}",
-        run.stderr
-    );
+    assert!(unsure.contains("noise.wav") && unsure.contains("this recording and the same flags"), "{}", run.stderr);
     let rows = table(&out.join("recordings.parquet"));
     let files = texts(&rows, "file");
     assert_eq!(files.len(), 7, "{files:?}");
