@@ -228,6 +228,13 @@ impl fmt::Display for TableNote {
     }
 }
 
+/// The name of a column with "std" in place of what makes its numbers expanded uncertainties.
+fn with_std(column: &str, stated: &[String]) -> String {
+    let without = stated.iter().fold(column.to_owned(), |name, part| name.replacen(part, "", 1)).replace("()", "");
+    let words: Vec<&str> = without.split(['_', ' ']).filter(|word| !word.is_empty()).collect();
+    format!("std_{}", words.join("_"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -245,11 +252,4 @@ mod tests {
         assert!(two.hint().contains("one of these columns"), "{}", two.hint());
         assert_eq!(TableNote::TurnedRound.hint(), "");
     }
-}
-
-/// The name of a column with "std" in place of what makes its numbers expanded uncertainties.
-fn with_std(column: &str, stated: &[String]) -> String {
-    let without = stated.iter().fold(column.to_owned(), |name, part| name.replacen(part, "", 1)).replace("()", "");
-    let words: Vec<&str> = without.split(['_', ' ']).filter(|word| !word.is_empty()).collect();
-    format!("std_{}", words.join("_"))
 }
