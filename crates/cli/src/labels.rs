@@ -6,14 +6,13 @@ use crate::inputs::open_stream;
 use crate::log::{THE_LOG, log_failure, loss_notice};
 use crate::recording::Heard;
 use crate::spin_up::names_of;
-use crate::vehicles::names_in_flight_model;
 use hovertone::rotors::{
     FlightLog, LabelSource, LabelsConfig, LogSignals, MotorSignal, RotorLabels, labels_from_log, labels_from_spin_up,
 };
 use hovertone::speed::TrackPoint;
 use hovertone_logs::{ColumnNames, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
 use hovertone_report::{Notice, SpeedRecord, Wording};
-use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle};
+use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle, flight_preset_names};
 use std::path::Path;
 
 /// Beside signals whose axes no argument gives.
@@ -160,7 +159,7 @@ fn contradicted(of_format: &str, said: &str) -> Failure {
 
 /// "one of ardrone, crazyflie": the vehicles whose rotors have known places.
 pub(crate) fn with_known_frame() -> String {
-    format!("one of {}", names_in_flight_model().join(", "))
+    format!("one of {}", flight_preset_names().join(", "))
 }
 
 /// Positions of the rotors with arms of 1 m: only their proportions matter.

@@ -193,8 +193,7 @@ pub(crate) fn is_recording_failure(path: &Path) -> Failure {
 
 /// The failure of a log whose speeds are needed.
 pub(crate) fn without_speeds(path: &Path, flight: &LoggedFlight) -> Failure {
-    let columns = flight.electrical.as_ref().map_or(&[][..], |electrical| &electrical.columns);
-    match electrical_notice(columns) {
+    match electrical_notice(flight.electrical_columns()) {
         Some(Notice { text, hint, .. }) => Failure::failed(text, hint, path),
         None => {
             let hint = "let the ESCs report their speeds (telemetry), and log them";
@@ -238,8 +237,8 @@ pub(crate) fn electrical_in_words(columns: &[ElectricalColumn]) -> Option<String
 
 /// What is wrong with a log whose speeds are used: lost parts, and motors whose speeds are electrical.
 pub(crate) fn notices_of(flight: &LoggedFlight) -> Vec<Notice> {
-    let columns = flight.electrical.as_ref().map_or(&[][..], |electrical| &electrical.columns);
-    flight.notes.iter().map(|words| loss_notice(words)).chain(electrical_notice(columns)).collect()
+    let of_columns = electrical_notice(flight.electrical_columns());
+    flight.notes.iter().map(|words| loss_notice(words)).chain(of_columns).collect()
 }
 
 /// The notice of what a log has lost.

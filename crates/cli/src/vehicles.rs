@@ -7,7 +7,7 @@ use crate::outputs::Outputs;
 use crate::own_vehicles::{file_to_add, own_vehicles, place, vehicles_in};
 use crate::terminal::Terminal;
 use hovertone_report::{printable, vehicles_json, vehicles_text};
-use hovertone_vehicle::{Vehicle, find_preset, flight_presets, presets};
+use hovertone_vehicle::{Vehicle, find_preset, flight_preset_names, presets};
 use std::fs;
 use std::path::Path;
 
@@ -94,14 +94,9 @@ pub(crate) fn known_vehicles() -> Result<Vec<Vehicle>, Failure> {
     Ok(presets().iter().chain(own_vehicles()?).cloned().collect())
 }
 
-/// Names of the vehicles with a flight model: they alone have rotors with known places.
-pub(crate) fn names_in_flight_model() -> Vec<&'static str> {
-    flight_presets().iter().map(|vehicle| vehicle.id).collect()
-}
-
 /// What is wrong with a name that the flight model does not know, and the hint.
 pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
-    let known = names_in_flight_model();
+    let known = flight_preset_names();
     let list = known.join(", ");
     if preset(name).is_ok() {
         let hint = format!("only these have one: {list}; the numbers of one vehicle are wrong for another");

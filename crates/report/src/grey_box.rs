@@ -309,7 +309,6 @@ fn rank_line(record: &GreyBoxRecord) -> String {
     let told = record.fit.std_uncertainty.iter().flatten().count();
     let count = information.parameters;
     let not_shown: Vec<String> = numbers_not_shown(record).iter().map(|number| number.in_words()).collect();
-    let not_shown: Vec<&str> = not_shown.iter().map(String::as_str).collect();
     let of_all = match not_shown.len() {
         _ if told >= count => format!("the flight shows all {count} numbers of the model"),
         1..=NUMBERS_NAMED_MAX => {

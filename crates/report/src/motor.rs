@@ -10,7 +10,7 @@ use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::{
     BenchTorque, CombinedEstimate, LOAD_STEPS_MIN, LoadTerm, MotorConstants, MotorStep, StepVerdict, constants_of,
 };
-use hovertone_vehicle::{Estimate, flight_presets, in_list};
+use hovertone_vehicle::{Estimate, flight_preset_names, in_list};
 use std::f64::consts::TAU;
 
 /// Digits of a speed and of a command.
@@ -229,8 +229,7 @@ pub(crate) fn torque_reason(torque: &BenchTorque) -> Option<String> {
     if !matches!(torque, BenchTorque::NoTorque) {
         return Some(reason);
     }
-    let vehicles: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
-    Some(format!("{reason} (for the vehicles {})", in_list(&vehicles, "and")))
+    Some(format!("{reason} (for the vehicles {})", in_list(&flight_preset_names(), "and")))
 }
 
 /// The line of the torque constant in torque = C_τ ω²: its value with the words behind it, or the reason why it is not known.

@@ -24,7 +24,7 @@ pub use contradiction::{Contradiction, TIP_MACH_MAX, check_tips};
 pub use estimate::{Ending, Estimate};
 pub use flight::{
     Axis, BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters,
-    RotorParameters, find_flight_parameters, flight_presets,
+    RotorParameters, find_flight_parameters, flight_preset_names, flight_presets,
 };
 pub use frame::RotorPlace;
 pub use known_rotor::KnownRotor;

@@ -41,13 +41,14 @@ impl FlownLog {
 
     /// That the log has electrical speeds in place of rotor speeds.
     fn electrical_notice(&self) -> Option<Notice> {
-        let electrical = self.flight.electrical.as_ref().filter(|_| self.flight.speeds_rev_s.is_none())?;
-        let ElectricalColumn { header, name_with_poles } = electrical.columns.first()?;
+        let columns = self.flight.electrical_columns();
+        let ElectricalColumn { header, name_with_poles } =
+            columns.first().filter(|_| self.flight.speeds_rev_s.is_none())?;
         let hint = format!(
             "count the magnets in the bell of a motor, and write their number into the headers of the CSV. For 14 magnets, as in most motors, \
              write {name_with_poles} in place of {header}, and so on"
         );
-        Some(Notice::new(electrical_in_words(&electrical.columns)?, hint))
+        Some(Notice::new(electrical_in_words(columns)?, hint))
     }
 
     /// Compares the log with its recording, whose record gets the warnings that follow.

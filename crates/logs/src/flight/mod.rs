@@ -86,6 +86,13 @@ pub struct LoggedFlight {
     pub notes: Vec<String>,
 }
 
+impl LoggedFlight {
+    /// The columns of electrical speeds that name no number of magnetic poles.
+    pub fn electrical_columns(&self) -> &[ElectricalColumn] {
+        self.electrical.as_ref().map_or(&[], |electrical| &electrical.columns)
+    }
+}
+
 /// Reads motors and body rates from a log. Its first bytes tell its format.
 ///
 /// - *PX4 ULog*: the speeds of `esc_status`, the commands of `actuator_motors` (or of the instance of `actuator_outputs` in which most channels

@@ -7,7 +7,7 @@ mod axis;
 mod presets;
 
 pub use axis::Axis;
-pub use presets::{find_flight_parameters, flight_presets};
+pub use presets::{find_flight_parameters, flight_preset_names, flight_presets};
 
 use crate::{QuantityError, Sourced, Vehicle};
 use serde::Serialize;

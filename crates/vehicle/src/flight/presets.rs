@@ -19,6 +19,11 @@ pub fn flight_presets() -> &'static [FlightParameters] {
     &PRESETS
 }
 
+/// Names of the vehicles with flight parameters: they alone have rotors with known places.
+pub fn flight_preset_names() -> Vec<&'static str> {
+    PRESETS.iter().map(|parameters| parameters.id).collect()
+}
+
 /// The flight parameters of the vehicle with the given id.
 pub fn find_flight_parameters(id: &str) -> Option<&'static FlightParameters> {
     PRESETS.iter().find(|parameters| parameters.id == id)
