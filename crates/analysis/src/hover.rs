@@ -56,8 +56,8 @@ impl fmt::Display for CutReason {
             Self::Landing => f.write_str("landing"),
             Self::Manoeuvre => f.write_str("manoeuvre"),
             Self::NoTone => f.write_str("no steady rotor"),
-            Self::Edge => f.write_str("before or after the hover"),
-            Self::TooShort => f.write_str("steady, but too short"),
+            Self::Edge => f.write_str("start or end of the hover"),
+            Self::TooShort => f.write_str("steady, but too short for a hover"),
         }
     }
 }

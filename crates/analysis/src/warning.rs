@@ -184,10 +184,10 @@ impl Warning {
                 cannot be separated"
             }
             Self::RotorsNotApart { resolved: 1.., .. } => {
-                "the speed is the mean of the separated rotors, and its ± includes the others; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+                "the speed is the mean of the separated rotors, and its ± is larger, because the speed of the others is not known; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
             }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all rotors, and its ± includes that not all were separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+                "the speed is the mean of all rotors, and its ± is larger, because not all were separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
             }
             Self::RotorCountUnknown { .. } => {
                 "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several rotors, place the microphone nearer"

@@ -123,7 +123,7 @@ fn shown(value: &Value) -> String {
             entries.iter().map(entry).collect::<Vec<_>>().join(", ")
         }
         Value::Null => "not given".to_owned(),
-        Value::Array(values) => values.iter().map(shown).collect::<Vec<_>>().join(" "),
+        Value::Array(values) => values.iter().map(shown).collect::<Vec<_>>().join(" and "),
         Value::String(text) => text.clone(),
         other => other.to_string(),
     }
@@ -161,7 +161,7 @@ mod tests {
         let here = BatchIdentity { inputs: vec!["A".to_owned(), "B".to_owned()], ..here };
         assert_eq!(
             there.differences(&here, ["there", "here"]).unwrap(),
-            "inputs: DIR there, A B here; channel: not given there, 1 here; rotors: 4 there, 2 here"
+            "inputs: DIR there, A and B here; channel: not given there, 1 here; rotors: 4 there, 2 here"
         );
         let there = identity(json!({"tone": {"blades": 2, "order": 2.0}, "search": {"known": {"blade_count": 2}}}));
         let here = identity(json!({"tone": {"blades": 3, "order": 3.0}, "search": {"known": {"blade_count": 3}}}));

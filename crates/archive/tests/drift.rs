@@ -125,7 +125,8 @@ fn nothing_is_compared_with_nothing() {
     }
     let sounding = archive(STILL, &mut random);
     let drift = drift_of(Archives { earlier: &silent, later: &sounding });
-    assert_eq!((drift.rotors.len(), drift.earlier_unused), (0, 10));
+    let silent_files: Vec<String> = silent.iter().map(|summary| summary.file.clone()).collect();
+    assert_eq!((drift.rotors.len(), drift.earlier_unused, silent_files.len()), (0, silent_files, 10));
 }
 
 /// The speeds of rotors with their labels, each with an error of 0.1 % in each recording.

@@ -244,8 +244,8 @@ fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Resul
         return Ok(());
     }
     let what = format!(
-        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is too large: it is {arm_m:.0} m times the thrust constant of one rotor, and for all \
-         propellers this ratio is less than {TORQUE_PER_THRUST_M_MAX} m"
+        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is too large: torque constant over thrust constant of one rotor would be {arm_m:.0} metres, and for \
+         all propellers it is less than {TORQUE_PER_THRUST_M_MAX} metre"
     );
     // the momentConstant of a model is this ratio
     if torque_constant_n_m_s2 <= TORQUE_PER_THRUST_M_MAX {

@@ -183,7 +183,9 @@ impl Plan<'_> {
             false => (
                 "no step of the speed is heard, from one steady value to another",
                 match self.arguments.json {
-                    true => "record a bench run whose command steps, and hold each level for a second or longer",
+                    true => {
+                        "record a bench run in which the command changes in steps, and hold each level for a second or longer"
+                    }
                     false => "",
                 },
             ),

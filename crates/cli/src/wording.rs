@@ -9,7 +9,7 @@ pub(crate) const IN_PLACE_OF_FILE: Wording =
 const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     (
         "--from and --to",
-        "from_s and to_s (in s, under [[load]] in DIR/experiment.toml, which -o DIR writes; then give this file to `hovertone identify`)",
+        "from_s and to_s in the experiment file: -o DIR writes it as DIR/experiment.toml; write both numbers, in s, under [[load]], and give this file to `hovertone identify`",
     ),
     ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
@@ -37,8 +37,11 @@ pub(crate) const IN_HOVER: Wording = Wording {
 
 /// Behind `verify`, which compares the speeds of each moment, without the speed of the recording: its table names what is compared.
 pub(crate) const IN_VERIFY: Wording = Wording::of_phrases(&[
-    ("the speed is the mean of all rotors, and its ± includes that not all were separated; ", ""),
-    ("the speed is the mean of the separated rotors, and its ± includes the others; ", ""),
+    ("the speed is the mean of all rotors, and its ± is larger, because not all were separated; ", ""),
+    (
+        "the speed is the mean of the separated rotors, and its ± is larger, because the speed of the others is not known; ",
+        "",
+    ),
 ]);
 
 #[cfg(test)]
@@ -118,7 +121,7 @@ mod tests {
             spread_share: 0.006,
         };
         for (has_mean, begins) in [
-            (true, "C_f uses the mean speed of all rotors, and its ± includes that not all were separated; "),
+            (true, "C_f uses the mean speed of all rotors, and its ± is larger, because not all were separated; "),
             (false, "the ± of C_f includes this uncertainty; "),
         ] {
             let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());

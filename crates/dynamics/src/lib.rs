@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! series ─ transitions ▶ windows with one step ─ first_order ▶ curves ─ step ▶ steps with a verdict ─ combined ▶ time constants, dead time
-//!    └──── plateaus ────▶ levels held ─ static_map ▶ speed of each command, gain, saturation ──┘
+//!    └──── plateaus ────▶ levels held ─ static_map ▶ speed at each command, gain, saturation ──┘
 //!                              └─────── bench_torque ▶ C_τ, where a bench logs the torque
 //! ```
 //!

@@ -74,13 +74,13 @@ def test_a_bucket_has_the_rows_of_its_folder(bucket, archive, program):
     assert run.returncode == 3, run.stderr
     assert same(rows("out"), archive, f"s3://{BUCKET}")
     again = program("batch", f"s3://{BUCKET}/archive", "-o", "out", *FLAGS)
-    assert "worked on in this run: 0" in again.stdout, again.stdout + again.stderr
+    assert "analysed in this run: 0" in again.stdout, again.stdout + again.stderr
     # one that changed is heard again, one that is gone loses its row
     write_wave(Path("other.wav"), rotor(90.0, 2.0))
     bucket.upload_file("other.wav", BUCKET, "archive/day 0/0.wav")
     bucket.delete_object(Bucket=BUCKET, Key="archive/empty.wav")
     changed = program("batch", f"s3://{BUCKET}/archive", "-o", "out", *FLAGS)
-    assert "worked on in this run: 1" in changed.stdout and ", 0 failed" in changed.stdout, changed.stdout + changed.stderr
+    assert "analysed in this run: 1" in changed.stdout and ", 0 failed" in changed.stdout, changed.stdout + changed.stderr
     assert rows("out")["speed_rev_s"][0].as_py() == pytest.approx(90.0, abs=0.1)
 
 

@@ -171,16 +171,17 @@ fn why_one_law(range: Option<LoadRange>, has_misfits: bool) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square); if this law and the stated uncertainties are right, chance \
-            alone makes differences as large, or larger, with a probability of {} (χ² = {}, {} degree{} of freedom){}\n",
+            "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square). {}: if this law and the stated uncertainties are \
+            right, the probability of differences this large, or larger, is {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
+            if agreement.is_disagreement() { "Chance hardly explains this" } else { "Chance explains this" },
             p_value_text(agreement.p_value),
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
             fit.widening().map_or(String::new(), |factor| {
                 format!(
-                    ". The points scatter more than stated, so the ± of C_f is {} times as large as from the stated uncertainties alone",
+                    ". The points scatter more than their stated uncertainties, so the ± of C_f is made {} times as large",
                     significant(factor, 2)
                 )
             })

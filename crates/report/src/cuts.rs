@@ -10,7 +10,7 @@ const STRETCHES_MAX: usize = 6;
 const SEGMENTS_SHOWN: usize = 2;
 /// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
-const EDGE: &str = "before or after the hover";
+const EDGE: &str = "start or end of the hover";
 
 /// A stretch of cuts that follow each other, with the time that each reason cuts of it. A hover's edge belongs to the stretch beside it.
 struct Stretch {
@@ -27,7 +27,7 @@ pub(crate) fn cut_in_short(cuts: &[Cut]) -> Option<String> {
     (!stretches.is_empty()).then(|| format!("{sum_s:.1} s each: {reasons}"))
 }
 
-/// "0.0–1.6 s (silence, before or after the hover), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
+/// "0.0–1.6 s (silence, start or end of the hover), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
 pub fn cuts_in_words(cuts: &[Cut]) -> Option<String> {
     let stretches = joined(cuts);
     if stretches.is_empty() {
@@ -90,7 +90,7 @@ fn in_words(reason: CutReason) -> &'static str {
         CutReason::Manoeuvre => "manoeuvre",
         CutReason::NoTone => "no steady rotor",
         CutReason::Edge => EDGE,
-        CutReason::TooShort => "steady, but too short",
+        CutReason::TooShort => "steady, but too short for a hover",
         _ => "not hover",
     }
 }
@@ -138,7 +138,7 @@ mod tests {
             cut(10.0, 11.0, CutReason::OtherSpeed { speed_rev_s: 9.0 }),
         ];
         let expected =
-            "0.0–1.5 s (silence, before or after the hover), 9.0–11.0 s (before or after the hover, another speed)";
+            "0.0–1.5 s (silence, start or end of the hover), 9.0–11.0 s (start or end of the hover, another speed)";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
         assert_eq!(cuts_in_words(&[]), None);
     }
@@ -148,7 +148,7 @@ mod tests {
         let cuts = [cut(0.0, 0.6, CutReason::TooShort), cut(0.5, 2.1, CutReason::NoTone)];
         assert_eq!(
             cuts_in_words(&cuts).as_deref(),
-            Some("0.0–0.6 s (steady, but too short), 0.6–2.1 s (no steady rotor)")
+            Some("0.0–0.6 s (steady, but too short for a hover), 0.6–2.1 s (no steady rotor)")
         );
     }
 
@@ -160,7 +160,7 @@ mod tests {
         // the edge between two stretches belongs to the first
         let cuts =
             [cut(0.0, 2.0, CutReason::Silence), cut(2.0, 2.5, CutReason::Edge), cut(2.5, 3.0, CutReason::Manoeuvre)];
-        let expected = "0.0–2.5 s (silence, before or after the hover), 2.5–3.0 s (manoeuvre)";
+        let expected = "0.0–2.5 s (silence, start or end of the hover), 2.5–3.0 s (manoeuvre)";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
     }
 

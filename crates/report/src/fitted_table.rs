@@ -120,7 +120,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     }
     if let Some(merit) = table.figure_of_merit {
         text += &format!(
-            "figure of merit (ideal power over measured power; electrical power includes the losses of motor and ESC) at the largest thrust = {}\n",
+            "figure of merit at the largest thrust = {} (ideal power over measured power; if the measured power is electrical, it includes the losses of motor and ESC)\n",
             significant(merit, 3)
         );
     }

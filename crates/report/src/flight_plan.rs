@@ -18,7 +18,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
     let intercept = match plan.force_ratio_for_intercept {
         Some(ratio) if ratio <= range => {
-            "These loads also test the law F = C_f ω²: they would show a force at speed zero (intercept) of 2 % of the largest force.".to_owned()
+            "These loads also test the law F = C_f ω²: if the true law has a force at speed zero (intercept), the test finds it from 2 % of the largest force on.".to_owned()
         }
         Some(ratio) => {
             // rounded up, so that the named mass is enough
@@ -37,7 +37,9 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
             "\nThe plan assumes that one tone is used for all rotors. If `hovertone speed` separates your rotors, or hears them \
             as a group with a mean speed, add --rotors-separated: the ± is smaller."
         }
-        BudgetInput::Gravity => "\nThe place of the flight makes this part smaller: plan again with --latitude-deg.",
+        BudgetInput::Gravity => {
+            "\nIf you give the latitude of the place of the flight, this part becomes smaller: plan again with --latitude-deg DEGREES."
+        }
         _ => "",
     };
     let hover = match plan.hover_s {

@@ -172,7 +172,7 @@ fn verdict_in_words(verdict: StepVerdict, source: &MotorSource) -> &'static str 
 
 /// That no step is found, and what to do. With a wrong number of blades, the tone that is followed may be another one.
 fn no_step_in_words(source: &MotorSource) -> String {
-    let held = "a bench run whose command steps, and hold each level for a second or longer";
+    let held = "a bench run in which the command changes in steps, and hold each level for a second or longer";
     match source {
         MotorSource::Log => format!("no step: the speed never changes from one steady value to another; log {held}\n"),
         MotorSource::Sound(sound) => match sound.given_number() {
@@ -213,8 +213,8 @@ fn torque_text(torque: &BenchTorque) -> String {
         BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
             let offset = significant(*offset_n_m, 2);
             let how = format!(
-                " (k = 2, without the error of the torque sensor), from the torque at {level_count} steady speeds; at speed 0, the straight \
-                line through them has {offset} N m: this is an offset of the sensor, and no part of C_τ"
+                " (k = 2, without the calibration error of the torque sensor), in torque = C_τ ω², from {level_count} steady speeds. A straight line of \
+                the torque against ω² has {offset} N m at speed 0: this is an offset of the sensor, and no part of C_τ"
             );
             Ok((*constant_n_m_s2, how))
         }

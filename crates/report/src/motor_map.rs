@@ -1,4 +1,4 @@
-//! The static maps of motors, in words the speed of each command: the gains, and the steady speeds behind them.
+//! The static maps of motors, in words the steady speed at each command: the gains, and the steady speeds behind them.
 
 use crate::motor_record::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
 use crate::number::{DASH, expanded, significant, with_uncertainty};
@@ -10,26 +10,27 @@ use hovertone_vehicle::{Estimate, in_list};
 /// Digits of a command and of a speed.
 const DIGITS: usize = 4;
 
-/// The static maps, in words the speed of each command: the gain of each motor, and the plateaus behind it.
+/// The static maps, in words the steady speed at each command: the gain of each motor, and the plateaus behind it.
 pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     if record.motors.iter().all(|motor| motor.command.is_none()) {
         return match record.source {
             MotorSource::Log => {
-                "\nspeed of each command: not known, because this log has no commands, or none of them changes\n"
+                "\nsteady speed at each command: not known, because this log has no commands, or none of them changes\n"
                     .to_owned()
             }
             MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
-                "\nspeed of each command: not known, because the commands are not used\n".to_owned()
+                "\nsteady speed at each command: not known, because the commands are not used\n".to_owned()
             }
             MotorSource::Sound(_) => {
-                "\nspeed of each command: not known without the commands (--commands LOG)\n".to_owned()
+                "\nsteady speed at each command: not known without the commands (--commands LOG)\n".to_owned()
             }
         };
     }
-    let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
+    let mut text =
+        format!("\ngain: how the steady speed follows the command\n{}", table_text(&gains_table(record), width));
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
     if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
-        text += "gain: change of the steady speed per unit of the command. It holds from the smallest to the largest command of the next table; \
+        text += "gain: change of the steady speed for one unit of the command. It holds from the smallest to the largest command of the next table; \
         saturated commands do not count\n";
     }
     text += &rows_in_words(record).unwrap_or_default();

@@ -24,7 +24,7 @@ impl Verdict {
             table.loads.iter().filter(|load| load.fits == Some(false)).map(|load| load.name.as_str()).collect();
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
             format!(
-                " ({}: the probability that loads which agree differ by chance as much as here, or more)",
+                " ({}: if all loads have the same C_f, chance alone makes differences this large, or larger, with this probability)",
                 p_value_text(agreement.p_value)
             )
         });
@@ -111,7 +111,7 @@ pub(crate) fn quoted(constant: Estimate) -> String {
     format!("({digits}) {}", unit.unit(CONSTANT_UNIT))
 }
 
-/// "rotors separated in 9 recordings, heard as a group in 6 other recordings"; `None` where one tone is used for all. In `partly` of the
+/// "rotors: separated in 9 recordings, heard as a group in 6 other recordings"; `None` where one tone is used for all. In `partly` of the
 /// recordings with separated rotors, some could not be separated.
 pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<String> {
     if counts.separated + counts.group == 0 {
@@ -119,13 +119,9 @@ pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<Str
     }
     let partly = partly.min(counts.separated);
     let whole = counts.separated - partly;
-    let (subject, of_some) = match whole {
-        0 if partly > 0 => ("only some ", "rotors separated"),
-        _ => ("rotors ", "only some of them separated"),
-    };
     let parts = [
         (whole, "separated"),
-        (partly, of_some),
+        (partly, "only some of them separated"),
         (counts.group, "heard as a group"),
         (counts.one_tone, "heard as one tone"),
     ];
@@ -137,7 +133,7 @@ pub fn rotors_heard_text(counts: RotorsHeardCounts, partly: usize) -> Option<Str
             format!("{how} in {}", counted(count, if at == 0 { "recording" } else { "other recording" }))
         })
         .collect();
-    Some(format!("{subject}{}", parts.join(", ")))
+    Some(format!("rotors: {}", parts.join(", ")))
 }
 
 /// "tone at 2 times the rotor speed".

@@ -64,14 +64,15 @@ impl Identification<'_> {
         self.tables.iter().find(|table| table.method == self.method)
     }
 
-    /// Number of logs that contradict the order or the clock of their recordings.
-    pub fn failed_check_count(&self) -> usize {
-        self.logs().filter(|log| log.has_failed_check()).count()
+    /// Names of the logs that contradict the order or the clock of their recordings.
+    pub fn logs_of_failed_checks(&self) -> Vec<&str> {
+        self.logs().filter(|log| log.has_failed_check()).map(|log| log.file.as_str()).collect()
     }
 
-    /// Number of logs that confirm the order and the clock of their recordings.
-    pub fn passed_check_count(&self) -> usize {
-        self.logs().filter(|log| log.verification.as_ref().is_some_and(Verification::passes)).count()
+    /// Names of the logs that confirm the order and the clock of their recordings.
+    pub fn logs_of_passed_checks(&self) -> Vec<&str> {
+        let passes = |log: &&FlightLogRecord| log.verification.as_ref().is_some_and(Verification::passes);
+        self.logs().filter(passes).map(|log| log.file.as_str()).collect()
     }
 
     /// Number of recordings in which some rotors are separated, but not all.

@@ -54,7 +54,11 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
                 }
                 if record.is_doubtful() {
                     table.push_words(
-                        "  do not use this speed".to_owned(),
+                        match record.rotors() {
+                            [] => "  do not use this speed",
+                            _ => "  do not use these speeds",
+                        }
+                        .to_owned(),
                         "the sound contradicts the given facts".to_owned(),
                     );
                 }

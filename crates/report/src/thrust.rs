@@ -155,7 +155,7 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method, width: Option<us
 /// The thrust coefficient in both conventions.
 pub(crate) fn coefficients_text(both: ThrustCoefficients) -> String {
     format!(
-        "thrust coefficient C_T of one rotor: {} as for propellers, F/(ρ n² D⁴); {} as for helicopters, F/(ρ A (ωR)²); F is its thrust, n its turns per second, D, R and A its diameter, radius and disk area, and ρ = {} kg/m³ the density of the air\n",
+        "thrust coefficient C_T of one rotor: {} with the formula for propellers, C_T = F/(ρ n² D⁴), or {} with the formula for helicopters, C_T = F/(ρ A (ωR)²). F is the thrust of the rotor, n its turns per second, ω = 2πn, D its diameter, R its radius, A its disk area, and ρ = {} kg/m³ the density of the air\n",
         significant(both.propeller, 4),
         significant(both.rotorcraft, 4),
         significant(both.density_kg_m3, 4),

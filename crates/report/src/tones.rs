@@ -114,7 +114,10 @@ fn heard_in_words(record: &SpeedRecord, heard: &SpeedEstimate) -> String {
     let rev_s = significant(heard.speed.rev_s(), DIGITS);
     match record.tone().map_or(&[][..], |tone| &tone.rotors) {
         [] | [_] => format!("a rotor at {rev_s} rev/s"),
-        several => format!("{} rotors at {rev_s} rev/s on average; the tone of the loudest is listed", several.len()),
+        several => format!(
+            "{} rotors at {rev_s} rev/s on average; the first tone below is the tone of the loudest rotor",
+            several.len()
+        ),
     }
 }
 

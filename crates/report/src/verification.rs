@@ -76,6 +76,12 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
 
 /// The time to add to the clock of the log, and how it is known.
 fn offset_in_words(found: &Verification) -> String {
+    if found.is_offset_told && !found.is_right() {
+        return format!(
+            "offset of the log: {} s, but it may be wrong, because the check failed\n",
+            signed(found.offset_s, 3)
+        );
+    }
     if found.is_offset_told {
         return format!(
             "offset of the log: {} s, the time to add to the clock of the log\n",
@@ -119,7 +125,7 @@ fn verdict_in_words(found: &Verification) -> String {
     let small = small_plus_minus(found);
     let small = small.map_or(String::new(), |Notice { text, hint, .. }| format!("\nbut {text}; {hint}"));
     format!(
-        "passed: the number of blades (or the gear) is right, and the clock is right within {} %; the mean of the heard speeds differs \
+        "passed: the number of blades (or the gear) is right, and the clock of the recorder is right within {} %; the mean of the heard speeds differs \
         from the log by {percent} %{small}",
         100.0 * RIGHT_SHARE
     )
@@ -175,7 +181,7 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
         )),
         None if let Some(units) = units_in_words(found.speed_ratio) => Some(Notice::new(
             format!("the heard speeds are {} times the logged speeds: {units}", significant(found.speed_ratio, 3)),
-            "check the unit of the speeds in the log",
+            "check the unit of the speeds in the log; in a CSV log, tell the right unit in the header of the column, as in rotor1_rad_s, or with --column",
         )),
         None => Some(Notice::new(
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
@@ -380,11 +386,9 @@ mod tests {
     #[test]
     fn a_small_plus_minus_is_no_silent_pass() {
         let verdict = |coverage, agreement| verdict_in_words(&verified(coverage, agreement));
-        assert!(
-            verdict(0.95, Agreement::AsStated).starts_with(
-                "passed: the number of blades (or the gear) is right, and the clock is right within 0.5 %;"
-            )
-        );
+        assert!(verdict(0.95, Agreement::AsStated).starts_with(
+            "passed: the number of blades (or the gear) is right, and the clock of the recorder is right within 0.5 %;"
+        ));
         for (agreement, word) in
             [(Agreement::PlusMinusTooSmall, "is too small"), (Agreement::AsStated, "may be too small")]
         {

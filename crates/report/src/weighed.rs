@@ -74,7 +74,7 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
             Some(_) => format!("{} g (k = 2{flights})", with_uncertainty(mass.value, mass.std_uncertainty)),
             None => {
                 format!(
-                    "{} g (its ± is not known, because the constant is given without a ±; --constant-std-n-s2 gives it)",
+                    "{} g (its ± is not known, because the constant is given without one; give half the ± of the constant, its standard uncertainty, with --constant-std-n-s2)",
                     significant(mass.value, DIGITS)
                 )
             }
@@ -114,7 +114,12 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
         }
     };
     if weighed.mass_kg.std_uncertainty.is_some() {
-        text += "the ± includes the ± of the constant, of the heard speeds, of gravity, and of the mass of the vehicle where it is given\n";
+        text += "this ± includes the uncertainties of the constant, of the heard speeds and of gravity";
+        text += if weighed.payload_kg.is_some() {
+            "; the ± of the payload also that of the mass of the vehicle\n"
+        } else {
+            "\n"
+        };
     }
     text
 }

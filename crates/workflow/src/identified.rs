@@ -173,12 +173,13 @@ impl Identified {
                 let identification = self.identification();
                 let heard = rotors_heard_text(table.rotors_heard, identification.partly_separated_count());
                 let heard = heard.map_or(String::new(), |heard| heard + "\n");
-                let in_logs = |count: usize, verb: &str| match count {
-                    0 => String::new(),
-                    _ => format!("the speeds in {} {verb} the sound\n", counted(count, "log")),
+                let in_logs = |logs: Vec<&str>, verb: &str| match logs.as_slice() {
+                    [] => String::new(),
+                    [log] => format!("the speeds in {} {verb} the sound\n", printable(log)),
+                    _ => format!("the speeds in {} logs {verb} the sound\n", logs.len()),
                 };
-                let of_logs = in_logs(identification.failed_check_count(), "do not fit")
-                    + &in_logs(identification.passed_check_count(), "fit");
+                let of_logs = in_logs(identification.logs_of_failed_checks(), "do not fit")
+                    + &in_logs(identification.logs_of_passed_checks(), "fit");
                 let verdict = format!("verdict: {}", printable(Verdict::of(table).words()));
                 let first = match table.forbids_use() {
                     true => format!("{verdict}\ndo not use this constant: {constants}\n"),

@@ -91,10 +91,10 @@ pub struct Drift {
     pub rotors: Vec<RotorChange>,
     /// Each recording of the same name.
     pub recordings: Vec<RecordingChange>,
-    /// Recordings of the earlier archive that have no speed, or no recording of the same name with one.
-    pub earlier_unused: usize,
+    /// Files of the earlier archive whose recordings have no speed, or no recording of the same name with one.
+    pub earlier_unused: Vec<String>,
     /// The same of the later archive.
-    pub later_unused: usize,
+    pub later_unused: Vec<String>,
 }
 
 /// The changes from the earlier archive to the later one.
@@ -131,15 +131,18 @@ pub fn drift_of(archives: Archives<'_>) -> Drift {
     let mut recordings: Vec<RecordingChange> = recordings.into_iter().flatten().collect();
     holm::adjust(recordings.iter_mut().map(|row| &mut row.change).collect());
     holm::adjust(rotors.iter_mut().map(|row| &mut row.change).collect());
-    let used = |all: &[Summary]| match is_paired {
-        true => pairs.len(),
-        false => all.iter().filter(|summary| summary.speed.is_some()).count(),
+    let unused = |all: &[Summary], in_pairs: BTreeSet<&str>| -> Vec<String> {
+        let is_used = |summary: &&Summary| match is_paired {
+            true => in_pairs.contains(summary.file.as_str()),
+            false => summary.speed.is_some(),
+        };
+        all.iter().filter(|summary| !is_used(summary)).map(|summary| summary.file.clone()).collect()
     };
     Drift {
         is_paired,
         is_labelled: numbering == Numbering::ByLabel,
-        earlier_unused: archives.earlier.len() - used(archives.earlier),
-        later_unused: archives.later.len() - used(archives.later),
+        earlier_unused: unused(archives.earlier, pairs.iter().map(|pair| pair.earlier.file.as_str()).collect()),
+        later_unused: unused(archives.later, pairs.iter().map(|pair| pair.later.file.as_str()).collect()),
         rotors,
         recordings,
     }

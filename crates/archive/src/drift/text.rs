@@ -9,6 +9,9 @@ use std::collections::BTreeSet;
 /// Most recordings that the text names; the JSON has all.
 const RECORDINGS_MAX: usize = 20;
 
+/// Most files that a line names; the JSON has all.
+const FILES_MAX: usize = 5;
+
 /// What stands in place of a number that is not told.
 const NOT_TOLD: &str = "–";
 
@@ -44,23 +47,34 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
     } else {
         "all recordings of the earlier archive with all of the later one, because no name is in both"
     };
-    let or_no_partner = if drift.is_paired { ", or the other archive has no recording of the same name" } else { "" };
-    let of_archive =
-        |count: usize, which: &str| (count > 0).then(|| format!("{} of the {which}", counted(count, "recording")));
-    let unused = [of_archive(drift.earlier_unused, "earlier archive"), of_archive(drift.later_unused, "later archive")];
-    let unused: Vec<String> = unused.into_iter().flatten().collect();
-    let unused = match unused.is_empty() {
-        true => String::new(),
-        false => format!("not compared: {} (no speed was heard{or_no_partner})\n", unused.join(", ")),
-    };
     format!(
-        "compared: {how}\n{}{}{}{}{unused}{}",
+        "compared: {how}\n{}{}{}{}{}{}",
         table_text(&table, width),
         not_single_text(drift),
         p_value_text(),
         not_known_text(drift),
+        unused_text(drift),
         recordings_text(drift, width)
     )
+}
+
+/// Which recordings are not compared, and why.
+fn unused_text(drift: &Drift) -> String {
+    let of_archive = |files: &[String], which: &str| {
+        let named: Vec<String> = files.iter().take(FILES_MAX).map(|file| printable(file)).collect();
+        let more = match files.len().saturating_sub(FILES_MAX) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        (!files.is_empty()).then(|| format!("of the {which} archive {}{more}", named.join(", ")))
+    };
+    let unused = [of_archive(&drift.earlier_unused, "earlier"), of_archive(&drift.later_unused, "later")];
+    let unused: Vec<String> = unused.into_iter().flatten().collect();
+    let or_no_partner = if drift.is_paired { ", or the other archive has no recording of the same name" } else { "" };
+    match unused.is_empty() {
+        true => String::new(),
+        false => format!("not compared: {} (no speed was heard{or_no_partner})\n", unused.join("; ")),
+    }
 }
 
 /// Whether rotors are compared one by one, and not their mean alone.
@@ -100,8 +114,8 @@ fn not_known_text(drift: &Drift) -> &'static str {
 
 fn p_value_text() -> String {
     format!(
-        "p-value: the chance of a difference this large or larger by accident, if no speed has changed. It allows for the number of tests \
-         (Holm 1979). Below {FALSE_ALARM_CHANCE}, the verdict is \"has changed\"\n"
+        "p-value: the chance of a difference this large or larger by accident, if no speed has changed. Many tests find such differences more often, \
+         so the p-values are made larger for the number of tests (method of Holm, 1979). Below {FALSE_ALARM_CHANCE}, the verdict is \"has changed\"\n"
     )
 }
 

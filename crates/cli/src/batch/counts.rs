@@ -101,8 +101,12 @@ impl fmt::Display for Counts {
             write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }
         if self.cut_short > 0 {
-            let verb = if self.cut_short == 1 { "is" } else { "are" };
-            write!(f, "; {} of these {verb} not complete: the end of the file is missing", self.cut_short)?;
+            let are = if self.cut_short == 1 {
+                "is not complete: the end of its file is"
+            } else {
+                "are not complete: the ends of their files are"
+            };
+            write!(f, "; {} of the {} recordings {are} missing", self.cut_short, self.total())?;
         }
         Ok(())
     }

@@ -173,7 +173,7 @@ fn refuse_other(path: &Path, identity: &BatchIdentity, shard: Shard) -> Result<(
             &place,
         ));
     };
-    let Some(shown) = there.differences(identity, ["in the folder", "in this run"]) else { return Ok(()) };
+    let Some(shown) = there.differences(identity, ["in the earlier run", "in this run"]) else { return Ok(()) };
     let what = format!("this folder holds results of other recordings or settings: nothing was written ({shown})");
     Err(refused(&what, hint, path))
 }

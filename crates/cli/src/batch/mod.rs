@@ -130,9 +130,13 @@ fn say(said: &Said<'_>, wants_json: bool, terminal: &mut Terminal) -> Result<(),
     let place = |name: &str| printable(&said.folder.place(name).display().to_string());
     let text = match said.all {
         Some(counts) => format!(
-            "{}: {counts}\nworked on in this run: {}\ntables: {}, {}\npage: {}{}\n",
+            "{}: {counts}\nanalysed in this run: {}{}\ntables: {}, {}\npage: {}{}\n",
             counted(recording_count, "recording"),
-            said.heard.total(),
+            counted(said.heard.total(), "recording"),
+            match recording_count - said.heard.total().min(recording_count) {
+                0 => String::new(),
+                others => format!("; an earlier run analysed the other {others}"),
+            },
             place(tables::RECORDINGS),
             place(tables::TRACKS),
             place(tables::OVERVIEW),

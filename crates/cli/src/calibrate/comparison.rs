@@ -42,6 +42,14 @@ impl Reference {
         let (Self::Speed { std_share, .. } | Self::Tone { std_share, .. }) = self;
         std_share
     }
+
+    /// What is known, in one word.
+    fn quantity(self) -> &'static str {
+        match self {
+            Self::Speed { .. } => "speed",
+            Self::Tone { .. } => "frequency",
+        }
+    }
 }
 
 /// What was heard.
@@ -183,9 +191,14 @@ pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Opt
 pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &CalibrateArguments) -> String {
     let (known, heard) = comparison.pair();
     let order = if comparison.heard.is_rotor { format!(", order {}", comparison.heard.order) } else { String::new() };
+    let what = comparison.reference.quantity();
     let is_rounded = arguments.known_std_ppm.is_none() && comparison.reference.std_share() > 0.0;
-    let digit = if is_rounded { "; the known number has the ± of its last digit alone" } else { "" };
-    let plus_minus = format!("(±: k = 2, without the clock of the recorder{digit})");
+    let digit = match is_rounded {
+        true => format!("; the ± of the known {what} is the rounding of its last digit"),
+        false => String::new(),
+    };
+    let plus_minus =
+        format!("(k = 2; the ± of the heard {what} does not include the error of the recorder's clock{digit})");
     let mut text = format!("{}: known {known}, heard {heard}{order} {plus_minus}\n", printable(name));
     text += &order_in_words(comparison, arguments);
     // of a speed that may be another one, no clock is told
@@ -202,7 +215,7 @@ fn result_in_words(comparison: &Comparison, clock_ppm: f64) -> String {
         (Judgement::Passes, _) => "",
         (Judgement::Undecided, _) => " (clock)",
         (Judgement::Fails, Relation::Agrees) => " (clock)",
-        (Judgement::Fails, Relation::None) => " (the known number does not fit)",
+        (Judgement::Fails, Relation::None) => " (the known value does not fit)",
         (Judgement::Fails, _) if comparison.heard.is_rotor => " (blades or gear)",
         (Judgement::Fails, _) => " (tone)",
     };
@@ -231,10 +244,7 @@ fn gear_of(arguments: &CalibrateArguments) -> Option<Gear> {
 fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
     let Comparison { check, heard: HeardSpeed { order, is_rotor, .. }, .. } = comparison;
     let ratio = fixed(check.heard_over_known, 4);
-    let what = match comparison.reference {
-        Reference::Speed { .. } => "speed",
-        Reference::Tone { .. } => "frequency",
-    };
+    let what = comparison.reference.quantity();
     // a wrong digit at the end changes a number by a tenth at most
     let is_near = (check.heard_over_known - 1.0).abs() < 0.1;
     let last_digit = if is_near { ", and to the last digit" } else { "" };
@@ -301,7 +311,7 @@ fn in_ppm(ppm: f64, std_ppm: f64) -> String {
 }
 
 fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
-    let check = &comparison.check;
+    let (check, what) = (&comparison.check, comparison.reference.quantity());
     let before_ppm = arguments.hearing.clock_correction_ppm.unwrap_or(0.0);
     let judgement = check.clock(arguments.clock_ppm);
     // a direction is told where it is known
@@ -315,20 +325,24 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     let advice = match judgement {
         // each of the two alone would leave it open
         Judgement::Undecided if comparison.least_expanded_ppm() >= arguments.clock_ppm => {
-            ". Neither the known number nor the sound is exact enough: measure the known number more exactly, give its uncertainty with \
-             --known-std-ppm, and make a longer recording"
+            format!(
+                ". Neither the known {what} nor the sound is exact enough: measure the {what} more exactly, give its standard uncertainty \
+                 with --known-std-ppm, and make a longer recording"
+            )
         }
         Judgement::Undecided if comparison.is_known_the_less_exact() => {
-            ". Most of the ± comes from the known number: measure it more exactly, and give its new \
-             uncertainty with --known-std-ppm"
+            format!(
+                ". Most of the ± comes from the known {what}: measure it more exactly, and give its new standard uncertainty with \
+                 --known-std-ppm"
+            )
         }
-        Judgement::Undecided => ". Most of the ± comes from the sound: make a longer recording",
-        _ => "",
+        Judgement::Undecided => ". Most of the ± comes from the sound: make a longer recording".to_owned(),
+        _ => String::new(),
     };
     let (verdict, limit_ppm) = (word(judgement), arguments.clock_ppm);
-    let why = if judgement == Judgement::Undecided { ", so that the ± is too large to decide" } else { "" };
+    let why = if judgement == Judgement::Undecided { ", so this ± is too large to decide" } else { "" };
     let mut text = format!(
-        "clock: {verdict}, {off} (millionths, k = 2); an error of up to {limit_ppm} ppm passes (--clock-ppm){why}{advice}\n"
+        "clock: {verdict}, {off} (millionths, k = 2). An error of up to {limit_ppm} ppm passes (--clock-ppm){why}{advice}\n"
     );
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
@@ -340,13 +354,18 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let decimals = correction_decimals(check.expanded_ppm());
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         let is_exact = comparison.reference.std_share() == 0.0;
-        let right = if is_exact { "exact (--known-std-ppm gives its uncertainty)" } else { "right within its ±" };
-        let unusual = format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known number first\n");
+        let right = match is_exact {
+            true => format!(
+                "if the known {what} is exact; if it is not, give its standard uncertainty with --known-std-ppm"
+            ),
+            false => format!("if the known {what} is right within its ±"),
+        };
+        let unusual = format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known {what} first\n");
         let unusual = if whole_ppm.abs() > USUAL_PPM_MAX { &unusual } else { "" };
         format!(
-            "{unusual}correction of the clock, if the known number is {right}: give --clock-correction-ppm {ppm}, or write in an experiment file\n  \
-             [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}  # error that may remain, {WARMTH_PPM} or more by warmth\n",
+            "{unusual}correction of the clock: {ppm} ppm, {right}. Add --clock-correction-ppm {ppm} to later commands with this recorder, or write \
+             in an experiment file:\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
+             clock_ppm = {}  # error that may remain; a warmer or colder recorder changes by about {WARMTH_PPM} ppm\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {

@@ -188,7 +188,7 @@ fn settled_by(plan: &Plan, order: Order) -> String {
         Reference::Speed { rpm, .. } => RotorSpeed::from_rpm(rpm).tone_hz(order),
         Reference::Tone { hz, .. } => hz,
     };
-    format!("if the known number is right, the tone lies near {tone_hz:.0} Hz: give --band {}", band_around(tone_hz))
+    format!("if the known frequency or speed is right, the tone lies near {tone_hz:.0} Hz: give --band {}", band_around(tone_hz))
 }
 
 /// The band around a tone, as it is typed: in whole Hz where it is wide.
@@ -262,8 +262,8 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
         None => {
             let reason = format!(
                 "no clear tone that lasts 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, \
-                 record the tone louder, longer and without other sound, or give another range with --band LOW:HIGH; for the tone of a rotor, \
-                 describe the rotor, as with --blades 2",
+                 record the tone louder, longer and without other sound, or give another range with --band LOW:HIGH; if a rotor makes the tone, \
+                 also give its number of blades, as in --blades 2",
                 band_hz.start, band_hz.end
             );
             ("no_line", Some(reason), Ending::Incomplete)
@@ -293,7 +293,7 @@ fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
             format!("--harmonics {count} changes nothing: --true-hz compares only one tone, the tone of a generator");
         return Err(Failure::usage(
             what,
-            "leave --harmonics out; if a rotor makes the tone, describe the rotor, for example with --blades 2",
+            "leave --harmonics out; if a rotor makes the tone, also give its number of blades, as in --blades 2",
         ));
     }
     // the clock is what is sought, and a bench does not move

@@ -111,7 +111,7 @@ fn half_given(air: &AirArguments, place: &PlaceArguments) -> Option<Notice> {
     match (air.diameter_m, of_air.or(place.height_m)) {
         (Some(_), None) => Some(Notice::new(
             "the thrust coefficient C_T is not computed: it needs the density of the air too",
-            "also give --temperature-c and --pressure-hpa, or --height-m",
+            "also give --temperature-c and --pressure-hpa, or only --height-m",
         )),
         (None, Some(_)) if of_air.is_some() => Some(Notice::new(
             "the thrust coefficient C_T is not computed: it needs the diameter of the propeller too",

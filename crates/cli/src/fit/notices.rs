@@ -126,7 +126,7 @@ pub(super) fn notice_of(warning: &ThrustWarning, rows: &FittedRows<'_>) -> Notic
         ThrustWarning::ImplausibleThrustCoefficient { .. } => {
             let (least, most) = (*THRUST_COEFFICIENT.start(), *THRUST_COEFFICIENT.end());
             let hint = format!(
-                "propellers have {least} to {most}: check --diameter-m, --rotors, and the units of the forces and of the speeds{}",
+                "propellers have {least} to {most}: check --diameter-m (it is used for all propellers of the file), --rotors, and the units of the forces and of the speeds{}",
                 rows.pole_pairs()
             );
             Notice::new(warning.to_string(), hint)

@@ -281,7 +281,10 @@ pub(crate) fn fit_of(
                     "{FLY_DOUBLETS}, and record the whole flight; or give the log alone, if it has the speeds of the rotors"
                 )
             }
-            GreyBoxStop::TooShort { .. } => "log the speeds more often, or fly doublets for that long".to_owned(),
+            GreyBoxStop::TooShort { .. } => {
+                "log the speeds more often, or fly longer (the stick to one side, then to the other, again and again)"
+                    .to_owned()
+            }
             GreyBoxStop::TooFew { .. } if of_sound => format!(
                 "check that the log belongs to this recording; if the clocks of the two differ, give --log-offset-s; if both are right, {FLY_DOUBLETS}"
             ),

@@ -217,7 +217,7 @@ impl Deref for Identified {
 
 impl Identified {
     pub(crate) fn ending(&self) -> Ending {
-        let has_failed_check = self.identification().failed_check_count() > 0;
+        let has_failed_check = !self.identification().logs_of_failed_checks().is_empty();
         let is_incomplete = self.warnings().iter().any(ThrustWarning::makes_incomplete);
         let of_checks = if has_failed_check || is_incomplete { Ending::Incomplete } else { Ending::Done };
         ending_of(self.records()).max(of_checks)

@@ -241,7 +241,7 @@ fn a_folder_of_something_else_is_refused_with_what_differs() {
     let words = ["batch", text(&archive), "-o", text(&out), "--rotors", "1", "--blades"];
     refused_with(
         &[&words[..], &["3"]].concat(),
-        &["other recordings or settings", "(blades: 2 in the folder, 3 in this run)"],
+        &["other recordings or settings", "(blades: 2 in the earlier run, 3 in this run)"],
     );
     refused_with(
         &["batch", text(&archive.join("flight 0")), "-o", text(&out), "--blades", "2"],

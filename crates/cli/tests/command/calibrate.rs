@@ -207,8 +207,8 @@ fn a_tone_of_known_frequency_checks_the_clock_alone_in_both_directions() {
         let of = |name: &str| json[name].as_f64().unwrap();
         assert!((of("clock_correction_ppm") - fast_ppm).abs() < 2.0 * of("clock_correction_std_ppm"), "{json}");
         assert!(off.stdout.contains(&format!("ppm {fast_ppm:.1}")), "{}", off.stdout);
-        // no recorder is that bad: the known number is more probably wrong
-        let is_doubted = off.stdout.contains("so check the known number first");
+        // no recorder is that bad: the known speed is more probably wrong
+        let is_doubted = off.stdout.contains("so check the known speed first");
         assert!(is_doubted == (fast_ppm > 1000.0) || fast_ppm.abs() == 200.0, "{}", off.stdout);
         let corrected = ["calibrate", "--true-hz", hz, text(&path), "--clock-correction-ppm", &fast_ppm.to_string()];
         hovertone(&corrected).ends_with(0);
@@ -266,7 +266,7 @@ fn a_wide_uncertainty_decides_nothing() {
         open.stdout
     );
     assert!(
-        open.stdout.contains("Most of the ± comes from the known number: measure it more exactly"),
+        open.stdout.contains("Most of the ± comes from the known frequency: measure it more exactly"),
         "{}",
         open.stdout
     );

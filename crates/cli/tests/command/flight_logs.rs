@@ -69,7 +69,7 @@ fn the_log_of_a_flight_names_rotors_checks_the_order_and_tells_the_motors() {
     for words in ["Speed check: sound against flight log", "passed", "motor 1", "time constant up"] {
         assert!(run.stdout.contains(words), "{words}: {}", run.stdout);
     }
-    assert!(run.stdout.contains("\nthe speeds in 1 log fit the sound\n"), "{}", run.stdout);
+    assert!(run.stdout.contains("\nthe speeds in right.csv fit the sound\n"), "{}", run.stdout);
     for words in ["do not fit the sound", "is of the same flight", "was not compared"] {
         assert!(!run.stdout.contains(words) && !run.stderr.contains(words), "{words}: {}", run.stderr);
     }
@@ -108,7 +108,7 @@ fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
     let run = hovertone(&["identify", &file, "-o", text(&out)]).ends_with(3);
     let failed = "the speeds in half.csv do not fit the sound: the heard speeds are 2.00 times the logged speeds";
     assert!(run.stderr.contains(failed), "{}", run.stderr);
-    assert!(run.stdout.contains("\nthe speeds in 1 log do not fit the sound\n"), "{}", run.stdout);
+    assert!(run.stdout.contains("\nthe speeds in half.csv do not fit the sound\n"), "{}", run.stdout);
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains(failed));
 
     // a log of another vehicle is said to be of no use

@@ -70,7 +70,7 @@ fn steps_of_a_log_tell_the_constants_of_its_motor() {
         for words in ["time constant", "<timeConstantUp>0.060", "<timeConstantDown>0.110", "<maxRotVelocity>1131<"] {
             assert!(shown.contains(words), "{words}\n{shown}");
         }
-        assert_eq!(shown.contains("speed of each command: not known"), !has_command, "{shown}");
+        assert_eq!(shown.contains("steady speed at each command: not known"), !has_command, "{shown}");
     }
 }
 
@@ -156,7 +156,7 @@ fn a_log_without_a_time_constant_says_why() {
     let slow = written(folder.path(), "slow.csv", slow.join("\n"));
     let run = hovertone(&["motor", &slow]).ends_with(3);
     assert!(
-        run.stdout.contains("too far for a time constant") && run.stdout.contains("speed of each command\n"),
+        run.stdout.contains("too far for a time constant") && run.stdout.contains("gain: how the steady speed follows the command\n"),
         "{}",
         run.stdout
     );
@@ -220,7 +220,7 @@ fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
     for words in [
         "4 motors",
         "too far for a time constant",
-        "speed of each command\n",
+        "gain: how the steady speed follows the command\n",
         "output 4",
         "no motor was held at two different commands for long enough, so the gains come from all log rows",
         "speed at command 0: where the fitted straight line reaches command 0; the real motor may stand still there",
@@ -284,10 +284,10 @@ fn advice_about_missing_steps_is_given_once() {
     let asked = ["motor", text(&sound), "--vehicle", "ardrone", "--commands", &commands];
     let run = hovertone(&asked).ends_with(3);
     let all = format!("{}{}", run.stderr, run.stdout);
-    assert_eq!(all.matches("record a bench run whose command steps").count(), 1, "{all}");
+    assert_eq!(all.matches("record a bench run in which the command changes in steps").count(), 1, "{all}");
     assert!(run.stderr.contains("commands.csv are not used: no step of the speed is heard"), "{}", run.stderr);
     let run = hovertone(&[&asked[..], &["--json"]].concat()).ends_with(3);
-    assert_eq!(run.stderr.matches("record a bench run whose command steps").count(), 1, "{}", run.stderr);
+    assert_eq!(run.stderr.matches("record a bench run in which the command changes in steps").count(), 1, "{}", run.stderr);
 }
 
 #[test]

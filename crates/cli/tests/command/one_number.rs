@@ -93,7 +93,7 @@ fn identify_ends_with_four_lines_and_warnings_stand_above_counted() {
     assert!(constants.contains("for the whole vehicle; ± is "), "{constants}");
     assert!(verdict.starts_with("verdict: every load agrees with the others"), "{verdict}");
     assert!(!verdict.contains("rotors"), "{verdict}");
-    assert_eq!(*heard, "rotors heard as a group in 4 recordings");
+    assert_eq!(*heard, "rotors: heard as a group in 4 recordings");
     assert_eq!(*page, format!("page: {}", out.join("report.html").display()));
     // a headline and these four; the tables are in the files
     assert_eq!(lines.len(), 5, "{}", run.stdout);
@@ -125,7 +125,7 @@ fn rotors_that_are_heard_as_a_group_are_called_that() {
     ] {
         let output = output.to_lowercase();
         assert!(output.contains("as a group"), "{what}");
-        assert!(!output.contains("rotors separated") && !output.contains("told apart"), "{what}");
+        assert!(!output.contains("rotors: separated") && !output.contains("rotors separated") && !output.contains("told apart"), "{what}");
     }
     let sound = out.parent().unwrap().join("load0/trial0.wav");
     let written = out.join("results.json");

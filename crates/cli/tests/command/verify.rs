@@ -57,7 +57,7 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     assert!(
         drawn
             .stdout
-            .contains("passed: the number of blades (or the gear) is right, and the clock is right within 0.5 %")
+            .contains("passed: the number of blades (or the gear) is right, and the clock of the recorder is right within 0.5 %")
     );
     assert!(fs::read_to_string(&figure).unwrap().contains("difference rotor-1"));
     let refused = |figure: &str, words: &[&str]| refused_with(&[&asked[..], &["--figure", figure]].concat(), words);
@@ -129,7 +129,7 @@ fn steady_speeds_do_not_show_whose_log_it_is() {
     assert!(line["status"] == "not_decided" && line["is_offset_told"] == false, "{line}");
     let run = hovertone(&[&asked[..], &["--log-offset-s=-0.2:0.2"]].concat()).ends_with(0);
     assert!(
-        run.stdout.contains("passed: the number of blades (or the gear) is right, and the clock is right within 0.5 %"),
+        run.stdout.contains("passed: the number of blades (or the gear) is right, and the clock of the recorder is right within 0.5 %"),
         "{}",
         run.stdout
     );

@@ -140,13 +140,13 @@ pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, meaning: Meaning
 }
 
 /// Why a speed is hardly possible.
-pub(crate) const HARDLY_FITS: &str = "its lines hardly fit";
+pub(crate) const HARDLY_FITS: &str = "its lines hardly fit the sound";
 
 /// How well the strengths of the lines fit a speed.
 fn fit_in_words(belief: f64) -> &'static str {
     match belief {
-        well if well >= 0.5 => "of the possible speeds, its lines fit best",
-        fair if fair >= 0.1 => "its lines fit less well",
+        well if well >= 0.5 => "the lines of this speed fit the sound best",
+        fair if fair >= 0.1 => "its lines fit the sound less well",
         _ => HARDLY_FITS,
     }
 }

@@ -29,7 +29,7 @@ fn a_trial_under_the_wrong_load_is_named() {
     assert_eq!(said.len(), 1, "{said:?}");
     assert!(
         said[0].starts_with(
-            "the rotor speed in load 0/2.wav means 12 % more thrust than in the other recordings of load \"load 0\""
+            "by its rotor speed, load 0/2.wav has 12 % more thrust than the other recordings of load \"load 0\""
         ),
         "{said:?}"
     );
@@ -55,7 +55,7 @@ fn of_two_trials_that_differ_both_are_named() {
     let said = misfiled(&fitted(&loads));
     assert_eq!(said.len(), 1, "{said:?}");
     assert!(
-        said[0].contains("12 % more thrust in load 0/1.wav than in load 0/0.wav, but both are of load \"load 0\""),
+        said[0].contains("by the rotor speeds, load 0/1.wav has 12 % more thrust than load 0/0.wav, but both are of load \"load 0\""),
         "{said:?}"
     );
 }

@@ -22,6 +22,13 @@ pub struct LawAgreement {
     pub p_value: f64,
 }
 
+impl LawAgreement {
+    /// Whether the points disagree with the law.
+    pub fn is_disagreement(&self) -> bool {
+        self.p_value < DISAGREEMENT_CHANCE
+    }
+}
+
 /// The agreement with its p-value; `None` where the uncertainties come from the residuals themselves, or without degrees of freedom.
 pub(crate) fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<LawAgreement> {
     let freedom = agreement.degrees_of_freedom as f64;
@@ -39,7 +46,7 @@ pub(crate) fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<La
 /// Factor from stated to real uncertainties: Birge's ratio (Birge 1932) where the points disagree with the law or state no
 /// uncertainty, else 1. `None` where the ratio is needed and there are no degrees of freedom.
 pub(crate) fn scatter_factor(agreement: Agreement, noise: PointNoise) -> Option<f64> {
-    let disagrees = || agreement_of(agreement, noise).is_some_and(|law| law.p_value < DISAGREEMENT_CHANCE);
+    let disagrees = || agreement_of(agreement, noise).is_some_and(|law| law.is_disagreement());
     if noise.is_by_residuals() || disagrees() { agreement.scatter_factor() } else { Some(1.0) }
 }
 

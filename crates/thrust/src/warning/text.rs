@@ -22,7 +22,7 @@ impl fmt::Display for ThrustWarning {
             Self::TrialFarFromOthers { load, recording, thrust_share } => {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };
                 let percent = 100.0 * thrust_share.abs();
-                write!(f, "the rotor speed in {recording} means {percent:.0} % {than} thrust than in the other recordings of load \"{load}\"")
+                write!(f, "by its rotor speed, {recording} has {percent:.0} % {than} thrust than the other recordings of load \"{load}\"")
             }
             Self::TrialsInGroups { load, groups_rev_s } => {
                 write!(f, "the recordings of load \"{load}\" form {}", groups_text(groups_rev_s))
@@ -31,7 +31,7 @@ impl fmt::Display for ThrustWarning {
                 f.write_str(&differ_text([least, most], *share, *stated_share))
             }
             Self::TrialsDiffer { load, least, most, thrust_share } => {
-                write!(f, "the rotor speeds mean {:.0} % more thrust in {most} than in {least}, but both are of load \"{load}\"", 100.0 * thrust_share)
+                write!(f, "by the rotor speeds, {most} has {:.0} % more thrust than {least}, but both are of load \"{load}\"", 100.0 * thrust_share)
             }
             Self::HeavierTurnedSlower { heavy, light } => {
                 write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")
@@ -69,7 +69,7 @@ impl fmt::Display for ThrustWarning {
             }
             Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {
-                write!(f, "the thrust coefficient C_T = T/(ρ n² D⁴) is {}, and no propeller has that", short_text(*propeller, 3))
+                write!(f, "the thrust coefficient C_T = F/(ρ n² D⁴) is {}, and no propeller has that", short_text(*propeller, 3))
             }
             Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
                 write!(f, "the figure of merit (ideal power over measured power) is {} (\"{name}\"), and no rotor has that", short_text(*figure_of_merit, 3))

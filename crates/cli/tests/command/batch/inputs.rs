@@ -74,7 +74,7 @@ fn a_recording_has_one_row_however_its_name_is_spelled() {
     batch_in(folder.path(), &["a"], "").ends_with(0);
     for same in ["a/", "./a", "a/../a", text(&archive)] {
         let run = batch_in(folder.path(), &[same], "").ends_with(0);
-        assert!(run.stdout.contains("worked on in this run: 0"), "{same}: {}", run.stdout);
+        assert!(run.stdout.contains("analysed in this run: 0"), "{same}: {}", run.stdout);
         assert_eq!(texts(&table(&out), "file"), files, "{same}");
     }
     let run = batch_in(folder.path(), &["a/flight 0"], "");
@@ -96,7 +96,7 @@ fn another_list_from_stdin_is_refused() {
     assert_eq!(fs::read(&out).unwrap(), before, "the order of the names is free");
     let run = batch_in(folder.path(), &["-"], "a/flight 2/2.wav\n");
     for words in
-        ["other recordings or settings", "list: 2 names (SHA-256 ", " in the folder, 1 name (SHA-256 ", "--force"]
+        ["other recordings or settings", "list: 2 names (SHA-256 ", " in the earlier run, 1 name (SHA-256 ", "--force"]
     {
         assert!(run.code == 2 && run.stderr.contains(words), "{words}: {} {}", run.code, run.stderr);
     }
