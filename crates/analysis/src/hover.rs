@@ -56,7 +56,7 @@ impl fmt::Display for CutReason {
             Self::Landing => f.write_str("landing"),
             Self::Manoeuvre => f.write_str("manoeuvre"),
             Self::NoTone => f.write_str("no steady rotor"),
-            Self::Edge => f.write_str("start or end of the hover"),
+            Self::Edge => f.write_str("transition to or from the hover"),
             Self::TooShort => f.write_str("steady, but too short for a hover"),
         }
     }

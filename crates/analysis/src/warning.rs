@@ -268,8 +268,8 @@ impl fmt::Display for Warning {
             Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
-                "the sound contradicts the given facts: a rotor with {blades} blades at {speed_rev_s:.1} rev/s is \
-                more than 99 times as probable as any rotor with these facts"
+                "the sound contradicts the given facts: another rotor ({blades} blades at {speed_rev_s:.1} rev/s) is \
+                more than 99 times as probable as every rotor that fits these facts"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(

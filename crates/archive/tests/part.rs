@@ -68,6 +68,7 @@ fn heard(file: &str, points: usize) -> ArchiveRow {
         codec: "PCM".to_owned(),
         decoder: "hovertone".to_owned(),
         sample_rate_hz: 44_100.0,
+        clock_correction_ppm: 0.0,
         channel_count: 1,
         channel: None,
         audio_track: 1,

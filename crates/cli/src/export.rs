@@ -244,13 +244,13 @@ fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Resul
         return Ok(());
     }
     let what = format!(
-        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is too large: torque constant over thrust constant of one rotor would be {arm_m:.0} metres, and for \
-         all propellers it is less than {TORQUE_PER_THRUST_M_MAX} metre"
+        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is too large: divided by the thrust constant of one rotor, it gives {arm_m:.0} metres, and for every \
+         propeller this ratio is less than {TORQUE_PER_THRUST_M_MAX} metre"
     );
     // the momentConstant of a model is this ratio
     if torque_constant_n_m_s2 <= TORQUE_PER_THRUST_M_MAX {
         let hint = format!(
-            "is it the momentConstant of a model, C_τ/C_f in m? Then give C_τ: --torque-constant-n-m-s2 {:.3e}",
+            "is it the momentConstant of a model (torque constant over thrust constant, in m)? Then give the torque constant: --torque-constant-n-m-s2 {:.3e}",
             torque_constant_n_m_s2 * thrust_constant_n_s2
         );
         return Err(Failure::usage(what, hint));

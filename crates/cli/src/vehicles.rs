@@ -99,9 +99,13 @@ pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
     let known = flight_preset_names();
     let list = known.join(", ");
     if preset(name).is_ok() {
-        let hint = format!("only these have one: {list}; the numbers of one vehicle are wrong for another");
+        let hint = format!(
+            "it has such a model only of these: {list}; none of them stands for another vehicle, because its data would be wrong"
+        );
         return (
-            format!("the vehicle \"{name}\" has no flight model (the numbers of its motors and of its controller)"),
+            format!(
+                "hovertone has no flight model of the vehicle \"{name}\": it does not know its motors and its controller"
+            ),
             hint,
         );
     }

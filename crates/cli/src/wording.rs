@@ -9,7 +9,7 @@ pub(crate) const IN_PLACE_OF_FILE: Wording =
 const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     (
         "--from and --to",
-        "from_s and to_s in the experiment file: -o DIR writes it as DIR/experiment.toml; write both numbers, in s, under [[load]], and give this file to `hovertone identify`",
+        "from_s and to_s: run this command with -o DIR, write both times (in s) under the [[load]] of this recording in DIR/experiment.toml, and run `hovertone identify DIR/experiment.toml`",
     ),
     ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),

@@ -66,6 +66,8 @@ pub struct RecordingInfo {
     pub codec: String,
     /// Samples per second: the rate in the file, with the correction of the recorder's clock.
     pub sample_rate_hz: f64,
+    /// That correction, in millionths; positive for a clock that runs fast.
+    pub clock_correction_ppm: f64,
     /// Channels of the track.
     pub channel_count: usize,
     /// Number of the selected channel, counted from 1; `None` for the mean of all.
@@ -208,6 +210,7 @@ impl Recording {
             container,
             codec: plan.codec.clone(),
             sample_rate_hz: sample_rate_hz * (1.0 + options.clock_correction_ppm / MILLION),
+            clock_correction_ppm: options.clock_correction_ppm,
             channel_count,
             channel: options.channel,
             audio_track: index + 1,

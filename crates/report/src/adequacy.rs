@@ -132,14 +132,10 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             )
         }
         _ if fit.laws.len() <= 1 && fit.points.len() == LAW_PARAMETERS => {
-            format!("no other law is compared with {}: this needs three forces or more\n", ForceLaw::Square.formula())
+            "the laws have no probabilities, because comparing them needs three different forces or more\n".to_owned()
         }
         _ if fit.laws.len() <= 1 && fit.points.len() > LAW_PARAMETERS => {
-            format!(
-                "no other law is compared with {}: {}\n",
-                ForceLaw::Square.formula(),
-                why_one_law(fit.range, has_misfits(fit))
-            )
+            format!("the laws have no probabilities, because {}\n", why_one_law(fit.range, has_misfits(fit)))
         }
         _ => String::new(),
     }
@@ -174,14 +170,14 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
             "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square). {}: if this law and the stated uncertainties are \
             right, the probability of differences this large, or larger, is {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
-            if agreement.is_disagreement() { "Chance hardly explains this" } else { "Chance explains this" },
+            if agreement.is_disagreement() { "Chance alone hardly explains this" } else { "Chance alone explains this" },
             p_value_text(agreement.p_value),
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
             fit.widening().map_or(String::new(), |factor| {
                 format!(
-                    ". The points scatter more than their stated uncertainties, so the ± of C_f is made {} times as large",
+                    ". So the points scatter more than their stated uncertainties, and the ± of C_f is made {} times as large",
                     significant(factor, 2)
                 )
             })
@@ -237,11 +233,10 @@ fn cross_check(bootstrap: Option<TrialBootstrap>, budget: &UncertaintyBudget, co
     let percent = |std_n_s2: f64| significant(100.0 * std_n_s2 / constant_n_s2, 2);
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "check: hovertone repeated the fit with {} random choices of the recordings (bootstrap, seed {}). In these fits, the \
-            speeds cause a standard uncertainty of C_f of {} %. In the budget, the two rows \"speed\" cause {} %. With few \
-            recordings, a factor of two between both numbers is normal\n",
+            "check: hovertone repeated the fit {} times, each time with a random choice of the recordings (bootstrap). C_f of these fits \
+            scatters by {} % (standard deviation, from the speeds alone). In the budget, the two rows \"speed\" make {} %. With few recordings, \
+            one of these two numbers is often twice the other\n",
             drawn.draws,
-            drawn.seed,
             percent(drawn.std_uncertainty_n_s2),
             percent(by_budget),
         )

@@ -10,7 +10,7 @@ const STRETCHES_MAX: usize = 6;
 const SEGMENTS_SHOWN: usize = 2;
 /// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
-const EDGE: &str = "start or end of the hover";
+const EDGE: &str = "transition to or from the hover";
 
 /// A stretch of cuts that follow each other, with the time that each reason cuts of it. A hover's edge belongs to the stretch beside it.
 struct Stretch {
@@ -27,7 +27,7 @@ pub(crate) fn cut_in_short(cuts: &[Cut]) -> Option<String> {
     (!stretches.is_empty()).then(|| format!("{sum_s:.1} s each: {reasons}"))
 }
 
-/// "0.0–1.6 s (silence, start or end of the hover), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
+/// "0.0–1.6 s (silence, transition to or from the hover), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
 pub fn cuts_in_words(cuts: &[Cut]) -> Option<String> {
     let stretches = joined(cuts);
     if stretches.is_empty() {
@@ -137,8 +137,7 @@ mod tests {
             cut(9.0, 9.5, CutReason::Edge),
             cut(10.0, 11.0, CutReason::OtherSpeed { speed_rev_s: 9.0 }),
         ];
-        let expected =
-            "0.0–1.5 s (silence, start or end of the hover), 9.0–11.0 s (start or end of the hover, another speed)";
+        let expected = "0.0–1.5 s (silence, transition to or from the hover), 9.0–11.0 s (transition to or from the hover, another speed)";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
         assert_eq!(cuts_in_words(&[]), None);
     }
@@ -160,7 +159,7 @@ mod tests {
         // the edge between two stretches belongs to the first
         let cuts =
             [cut(0.0, 2.0, CutReason::Silence), cut(2.0, 2.5, CutReason::Edge), cut(2.5, 3.0, CutReason::Manoeuvre)];
-        let expected = "0.0–2.5 s (silence, start or end of the hover), 2.5–3.0 s (manoeuvre)";
+        let expected = "0.0–2.5 s (silence, transition to or from the hover), 2.5–3.0 s (manoeuvre)";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
     }
 

@@ -18,7 +18,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
     let intercept = match plan.force_ratio_for_intercept {
         Some(ratio) if ratio <= range => {
-            "These loads also test the law F = C_f ω²: if the true law has a force at speed zero (intercept), the test finds it from 2 % of the largest force on.".to_owned()
+            "These loads also test the law F = C_f ω²: if the true law has a force at speed zero (intercept), the test finds it where it is 2 % of the largest force or more.".to_owned()
         }
         Some(ratio) => {
             // rounded up, so that the named mass is enough

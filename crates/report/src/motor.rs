@@ -72,7 +72,7 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
             let frame_ms = significant(sound.frame_s * MS_PER_S, 3);
             let has_steps = shown_steps(record).next().is_some();
             let heard = format!(
-                "the speeds come from the sound, in pieces of {frame_ms} ms; an echo in the room can make the time constants wrong by some per cent\n"
+                "the speeds come from the sound, each from {frame_ms} ms of it; an echo in the room can make the time constants wrong by some per cent\n"
             );
             let heard = if has_steps { heard } else { String::new() };
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {

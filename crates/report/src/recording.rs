@@ -22,8 +22,10 @@ pub struct RecordingFacts {
     pub codec: String,
     /// Decoder.
     pub decoder: String,
-    /// Samples per second.
+    /// Samples per second, with the correction of the recorder's clock.
     pub sample_rate_hz: f64,
+    /// That correction, in millionths; positive for a clock that runs fast.
+    pub clock_correction_ppm: f64,
     /// Number of channels of the track.
     pub channel_count: usize,
     /// Number of the analysed channel, counted from 1; absent where it is the mean of all channels.
@@ -228,7 +230,12 @@ impl SpeedRecord {
 
     /// Whether one rotor alone is said to turn, as on a bench.
     pub(crate) fn is_one_rotor(&self) -> bool {
-        self.settings.pointer("/known/rotor_count").and_then(Value::as_u64) == Some(1)
+        self.given_rotor_count() == Some(1)
+    }
+
+    /// The number of rotors, where it is given.
+    pub(crate) fn given_rotor_count(&self) -> Option<u64> {
+        self.settings.pointer("/known/rotor_count").and_then(Value::as_u64)
     }
 
     /// Whether the file could not be read.

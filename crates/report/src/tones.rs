@@ -68,6 +68,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         return text + "could not be read\n";
     }
     let Some(found) = record.found.as_ref() else { return text };
+    let heard_s = record.analysis().map_or(f64::INFINITY, |analysis| analysis.heard.length_s());
     let rotor = found.rotor.filter(|_| record.tone().is_some());
     let remark = rotor.and_then(|rotor| found.families.get(rotor)).and_then(|family| family.remark);
     let verdict = match (rotor, remark) {
@@ -80,7 +81,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     };
     text += &format!("{verdict}\n");
     if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
-        let (place, table) = (kind_and_place("rotor", family), readings_table(family, width));
+        let (place, table) = (kind_and_place("rotor", family, heard_s), readings_table(family, width));
         // several possible speeds may belong to other series than the one that is seen best
         text += &match record.is_ambiguous() {
             true => format!("\n{table}\n{place}\n"),
@@ -104,7 +105,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
             Some(Remark::GearMesh) => String::new(),
             _ => readings_in_a_line(family, of_rotor.as_deref()),
         };
-        text += &format!("\n{}\n{readings}", kind_and_place(kind, family));
+        text += &format!("\n{}\n{readings}", kind_and_place(kind, family, heard_s));
     }
     text
 }
@@ -114,10 +115,16 @@ fn heard_in_words(record: &SpeedRecord, heard: &SpeedEstimate) -> String {
     let rev_s = significant(heard.speed.rev_s(), DIGITS);
     match record.tone().map_or(&[][..], |tone| &tone.rotors) {
         [] | [_] => format!("a rotor at {rev_s} rev/s"),
-        several => format!(
-            "{} rotors at {rev_s} rev/s on average; the first tone below is the tone of the loudest rotor",
-            several.len()
-        ),
+        several => {
+            let of_all = match record.given_rotor_count() {
+                Some(count) if count > several.len() as u64 => format!("of the {count} "),
+                _ => String::new(),
+            };
+            format!(
+                "{} {of_all}rotors could be separated, at {rev_s} rev/s on average; the first tone below is the tone of the loudest rotor",
+                several.len()
+            )
+        }
     }
 }
 
@@ -126,13 +133,18 @@ const NEAR_ROTOR_SHARE: f64 = 0.05;
 /// Harmonics that are named: higher ones are near any tone.
 const OTHER_HARMONICS: std::ops::RangeInclusive<f64> = 2.0..=6.0;
 
+/// A tone that sounds for more of its time has no breaks that count.
+const UNBROKEN_SHARE: f64 = 0.95;
+
 /// A tone that moves by more (standard deviation) has no single frequency.
 const MOVING_SHARE: f64 = 0.002;
 
 /// "rotor: harmonics 1–9 of 360.2 Hz, 31 dB over the noise, all the time".
-fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
+fn kind_and_place(kind: &str, family: &ToneFamily, heard_s: f64) -> String {
+    let is_unbroken = family.time_share * heard_s >= UNBROKEN_SHARE * family.span.length_s();
     let time = match (100.0 * family.time_share).round() {
         100.0 => "all the time".to_owned(),
+        _ if is_unbroken => format!("from {:.1} to {:.1} s", family.span.from_s, family.span.to_s),
         percent => {
             format!(
                 "on and off from {:.1} to {:.1} s, in {percent:.0} % of the recording",

@@ -101,8 +101,7 @@ fn offset_in_words(found: &Verification) -> String {
         );
     }
     format!(
-        "offset of the log: not known, because no offset fits clearly better than all others; the table above adds {used} s to \
-         the clock of the log\n"
+        "offset of the log: not known, because no offset fits clearly better than all others; the table above uses {used} s, which may be wrong\n"
     )
 }
 

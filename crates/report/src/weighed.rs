@@ -114,11 +114,10 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
         }
     };
     if weighed.mass_kg.std_uncertainty.is_some() {
-        text += "this ± includes the uncertainties of the constant, of the heard speeds and of gravity";
-        text += if weighed.payload_kg.is_some() {
-            "; the ± of the payload also that of the mass of the vehicle\n"
-        } else {
-            "\n"
+        text += "the ± of the mass includes the uncertainties of the constant, of the heard speeds and of gravity";
+        text += match weighed.payload_kg {
+            Some(_) => "; the ± of the payload also includes the uncertainty of the mass of the vehicle\n",
+            None => "\n",
         };
     }
     text

@@ -200,6 +200,7 @@ pub fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts
         }
         .to_owned(),
         sample_rate_hz: info.sample_rate_hz,
+        clock_correction_ppm: info.clock_correction_ppm,
         channel_count: info.channel_count,
         channel: info.channel,
         audio_track: info.audio_track,

@@ -66,14 +66,14 @@ fn unused_text(drift: &Drift) -> String {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        (!files.is_empty()).then(|| format!("of the {which} archive {}{more}", named.join(", ")))
+        (!files.is_empty()).then(|| format!("{}{more} (in the {which} archive)", named.join(", ")))
     };
     let unused = [of_archive(&drift.earlier_unused, "earlier"), of_archive(&drift.later_unused, "later")];
     let unused: Vec<String> = unused.into_iter().flatten().collect();
     let or_no_partner = if drift.is_paired { ", or the other archive has no recording of the same name" } else { "" };
     match unused.is_empty() {
         true => String::new(),
-        false => format!("not compared: {} (no speed was heard{or_no_partner})\n", unused.join("; ")),
+        false => format!("not compared: {}, because no speed was heard{or_no_partner}\n", unused.join("; ")),
     }
 }
 
@@ -87,8 +87,8 @@ fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
         false => {
-            "only the mean of all rotors is compared, because the two archives have no separated rotors to compare one by one (`hovertone batch` \
-            without --mean-only separates them where it can; if one rotor ran alone, the mean is its speed)\n"
+            "only the mean of all rotors is compared, because the two archives have no separated rotors to compare one by one. With --mean-only, \
+            `hovertone batch` does not separate them; without it, these rotors could not be separated. If one rotor ran alone, the mean is its speed\n"
         }
     }
 }
@@ -114,8 +114,8 @@ fn not_known_text(drift: &Drift) -> &'static str {
 
 fn p_value_text() -> String {
     format!(
-        "p-value: the chance of a difference this large or larger by accident, if no speed has changed. Many tests find such differences more often, \
-         so the p-values are made larger for the number of tests (method of Holm, 1979). Below {FALSE_ALARM_CHANCE}, the verdict is \"has changed\"\n"
+        "p-value: the chance of a difference this large or larger by accident, if no speed has changed. The more speeds are compared, \
+         the more often chance alone makes a large difference: the p-values are corrected for this (method of Holm, 1979). Below {FALSE_ALARM_CHANCE}, the verdict is \"has changed\"\n"
     )
 }
 

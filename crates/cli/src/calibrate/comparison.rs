@@ -353,6 +353,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     } else if check.is_significant() {
         let decimals = correction_decimals(check.expanded_ppm());
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
+        let sign = if whole_ppm < 0.0 { "negative: the clock runs slow" } else { "positive: the clock runs fast" };
         let is_exact = comparison.reference.std_share() == 0.0;
         let right = match is_exact {
             true => format!(
@@ -363,7 +364,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let unusual = format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known {what} first\n");
         let unusual = if whole_ppm.abs() > USUAL_PPM_MAX { &unusual } else { "" };
         format!(
-            "{unusual}correction of the clock: {ppm} ppm, {right}. Add --clock-correction-ppm {ppm} to later commands with this recorder, or write \
+            "{unusual}correction of the clock: {ppm} ppm ({sign}), {right}. Add --clock-correction-ppm {ppm} to later commands with this recorder, or write \
              in an experiment file:\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
              clock_ppm = {}  # error that may remain; a warmer or colder recorder changes by about {WARMTH_PPM} ppm\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)

@@ -188,7 +188,10 @@ fn settled_by(plan: &Plan, order: Order) -> String {
         Reference::Speed { rpm, .. } => RotorSpeed::from_rpm(rpm).tone_hz(order),
         Reference::Tone { hz, .. } => hz,
     };
-    format!("if the known frequency or speed is right, the tone lies near {tone_hz:.0} Hz: give --band {}", band_around(tone_hz))
+    format!(
+        "if the known frequency or speed is right, the tone lies near {tone_hz:.0} Hz: give --band {}",
+        band_around(tone_hz)
+    )
 }
 
 /// The band around a tone, as it is typed: in whole Hz where it is wide.

@@ -111,7 +111,7 @@ fn half_given(air: &AirArguments, place: &PlaceArguments) -> Option<Notice> {
     match (air.diameter_m, of_air.or(place.height_m)) {
         (Some(_), None) => Some(Notice::new(
             "the thrust coefficient C_T is not computed: it needs the density of the air too",
-            "also give --temperature-c and --pressure-hpa, or only --height-m",
+            "also give --temperature-c and --pressure-hpa, or only --height-m, the height above sea level",
         )),
         (None, Some(_)) if of_air.is_some() => Some(Notice::new(
             "the thrust coefficient C_T is not computed: it needs the diameter of the propeller too",
@@ -257,7 +257,7 @@ fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Fai
     for row in &group.rows {
         let tips = plan.diameter_m.map(|diameter_m| check_tips(diameter_m, RotorSpeed::from_rad_s(row.speed_rad_s)));
         tips.transpose().map_err(|tips| Failure::Usage {
-            what: format!("line {}: {tips}", row.line_number),
+            what: format!("{tips} (this speed is in line {})", row.line_number),
             hint:
                 "check the diameter (from tip to tip, in metres: 10 inches are 0.254), and the speed in this line and \
                    its unit; if all are right, leave --diameter-m out: C_f does not need it"

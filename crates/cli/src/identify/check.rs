@@ -130,8 +130,8 @@ fn wishes_of(experiment: &Experiment, is_typed: bool) -> Vec<Notice> {
         ),
         (
             has_gravity,
-            "the place of the flight is not given, and gravity differs by 0.5 % on Earth: so the ± is larger",
-            by("give --latitude-deg", "write latitude_deg and height_m under [vehicle]"),
+            "the place of the flight is not given, and gravity differs by up to 0.5 % between places on Earth: so the ± is larger",
+            by("give --latitude-deg", "write latitude_deg and height_m (the height above sea level) under [vehicle]"),
         ),
         (
             experiment.air.is_some(),

@@ -8,10 +8,12 @@ mod typed;
 
 pub(crate) use experiment_file::{ExperimentSource, names_loads};
 use logs::FlownLog;
+use recordings::advice_on_copies;
 pub(crate) use recordings::{LoadJob, jobs_of};
 use typed::{EXPERIMENT, TypedExperiment};
 
 use crate::args::{HearingArguments, IdentifyArguments};
+use crate::copies::refuse_equal_speeds;
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
 use crate::jobs::ending_of;
@@ -184,6 +186,8 @@ pub(crate) fn identify(
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
+    let (hint, experiment_file) = advice_on_copies(&source);
+    refuse_equal_speeds(&records, hint, experiment_file)?;
     let wording = source.wording;
     let input = |((OfLoad { load, log }, mut record), job): ((OfLoad, SpeedRecord), &Job)| {
         let log = log.map(|log| log.compared(&mut record, job));

@@ -98,11 +98,16 @@ pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
 
 /// Refuses two recordings that are the same.
 pub(super) fn refuse_twice(jobs: &mut [LoadJob], source: &ExperimentSource) -> Result<(), Failure> {
-    let (hint, path) = match source.typed {
-        Some(_) => ("name each recording once", None),
-        None => ("remove one of the two from the experiment file, or from the folder", Some(source.path.as_path())),
-    };
+    let (hint, path) = advice_on_copies(source);
     refuse_copies(jobs.iter_mut().map(|LoadJob { job, .. }| job), hint, path)
+}
+
+/// What to do about two recordings that are the same, and in which file.
+pub(super) fn advice_on_copies(source: &ExperimentSource) -> (&'static str, Option<&Path>) {
+    match source.typed {
+        Some(_) => ("give only one of them: leave the other out of the command, or move it out of its folder", None),
+        None => ("remove one of the two from the experiment file, or from the folder", Some(source.path.as_path())),
+    }
 }
 
 /// All recordings, load by load, as far as there are files.

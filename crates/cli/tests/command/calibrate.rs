@@ -54,9 +54,13 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     let rpm = |words: &[&str]| {
         let run =
             hovertone(&[&["speed", "--vehicle", "crazyflie", "--rotors", "1", "--json", text(&sound)], words].concat());
-        run.ends_with(0).json_lines()[0]["speed_rpm"].as_f64().unwrap()
+        let line = run.ends_with(0).json_lines().remove(0);
+        let corrected_ppm = line["recording"]["clock_correction_ppm"].as_f64().unwrap();
+        (line["speed_rpm"].as_f64().unwrap(), corrected_ppm)
     };
-    let ratio = rpm(&["--clock-correction-ppm", &flag]) / rpm(&[]);
+    let (corrected, plain) = (rpm(&["--clock-correction-ppm", &flag]), rpm(&[]));
+    assert_eq!([corrected.1, plain.1], [flag_ppm, 0.0]);
+    let ratio = corrected.0 / plain.0;
     assert!((1e6 * (ratio - 1.0) - ppm).abs() < 1.0, "{ratio}");
     let experiment = folder.path().join("experiment.toml");
     let identified = |recorder: &str| {

@@ -88,7 +88,7 @@ fn cuts_of_several_recordings_are_one_line() {
     };
     let three = speed(&names);
     assert_eq!(three.matches("cut").count(), 1, "{three}");
-    assert!(three.contains("s each: silence, start or end of the hover (in all 3 recordings)"), "{three}");
+    assert!(three.contains("s each: silence, transition to or from the hover (in all 3 recordings)"), "{three}");
     let two = speed(&names[..2]);
     assert_eq!(two.matches("  cut 0.0–").count(), 2, "{two}");
 }

@@ -156,7 +156,8 @@ fn a_log_without_a_time_constant_says_why() {
     let slow = written(folder.path(), "slow.csv", slow.join("\n"));
     let run = hovertone(&["motor", &slow]).ends_with(3);
     assert!(
-        run.stdout.contains("too far for a time constant") && run.stdout.contains("gain: how the steady speed follows the command\n"),
+        run.stdout.contains("too far for a time constant")
+            && run.stdout.contains("gain: how the steady speed follows the command\n"),
         "{}",
         run.stdout
     );
@@ -287,7 +288,12 @@ fn advice_about_missing_steps_is_given_once() {
     assert_eq!(all.matches("record a bench run in which the command changes in steps").count(), 1, "{all}");
     assert!(run.stderr.contains("commands.csv are not used: no step of the speed is heard"), "{}", run.stderr);
     let run = hovertone(&[&asked[..], &["--json"]].concat()).ends_with(3);
-    assert_eq!(run.stderr.matches("record a bench run in which the command changes in steps").count(), 1, "{}", run.stderr);
+    assert_eq!(
+        run.stderr.matches("record a bench run in which the command changes in steps").count(),
+        1,
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]

@@ -125,7 +125,12 @@ fn rotors_that_are_heard_as_a_group_are_called_that() {
     ] {
         let output = output.to_lowercase();
         assert!(output.contains("as a group"), "{what}");
-        assert!(!output.contains("rotors: separated") && !output.contains("rotors separated") && !output.contains("told apart"), "{what}");
+        assert!(
+            !output.contains("rotors: separated")
+                && !output.contains("rotors separated")
+                && !output.contains("told apart"),
+            "{what}"
+        );
     }
     let sound = out.parent().unwrap().join("load0/trial0.wav");
     let written = out.join("results.json");

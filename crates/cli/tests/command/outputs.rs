@@ -369,4 +369,13 @@ fn a_recording_counts_once() {
     hovertone(&["identify", "--check", text(&experiment)]).ends_with(0);
     let weigh = ["weigh", text(&first), text(&second), "--constant-n-s2", "2.831e-5", "--vehicle", "ardrone"];
     refused_with(&weigh, &words[..3]);
+    // the same sound in a file with more metadata
+    let mut with_chunk = fs::read(&first).unwrap();
+    with_chunk.extend(*b"note\x04\0\0\0copy");
+    let riff_length = u32::try_from(with_chunk.len() - 8).unwrap();
+    with_chunk[4..8].copy_from_slice(&riff_length.to_le_bytes());
+    fs::write(&second, with_chunk).unwrap();
+    fs::write(&experiment, format!("{vehicle}{}", load("one", 0.0, "*.wav"))).unwrap();
+    refused_with(&["identify", text(&experiment)], &words);
+    refused_with(&weigh, &words[..3]);
 }

@@ -159,7 +159,7 @@ fn recordings_have_decision_runner_up_and_cuts(browser: &mut Browser, results: &
         assert!(row.contains('✓') && row.contains("odds ") && row.contains(" rev/s ("), "{row}");
         let cuts = input["hover"]["cuts"].as_array().unwrap();
         assert_eq!(cuts.iter().any(|cut| cut["reason"] == "silence"), index % 10 == 5, "{input}");
-        let expected = if cuts.is_empty() { "nothing was cut" } else { "(silence, start or end of the hover)" };
+        let expected = if cuts.is_empty() { "nothing was cut" } else { "(silence, transition to or from the hover)" };
         assert!(fold.contains(expected), "{fold}");
     }
     // the track of the rotor lies over the picture, and the reason of the cut stands in it

@@ -54,11 +54,9 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     assert!(rotor["coverage"].as_f64().unwrap() > 0.9 && of_mean["rotors"].as_array().unwrap().len() == 1, "{of_mean}");
     let figure = folder.path().join("check.svg");
     let drawn = hovertone(&[&asked[..], &["--figure", text(&figure)]].concat()).ends_with(0);
-    assert!(
-        drawn
-            .stdout
-            .contains("passed: the number of blades (or the gear) is right, and the clock of the recorder is right within 0.5 %")
-    );
+    assert!(drawn.stdout.contains(
+        "passed: the number of blades (or the gear) is right, and the clock of the recorder is right within 0.5 %"
+    ));
     assert!(fs::read_to_string(&figure).unwrap().contains("difference rotor-1"));
     let refused = |figure: &str, words: &[&str]| refused_with(&[&asked[..], &["--figure", figure]].concat(), words);
     refused("check.gif", &["must end with .png or .svg"]);
@@ -129,7 +127,9 @@ fn steady_speeds_do_not_show_whose_log_it_is() {
     assert!(line["status"] == "not_decided" && line["is_offset_told"] == false, "{line}");
     let run = hovertone(&[&asked[..], &["--log-offset-s=-0.2:0.2"]].concat()).ends_with(0);
     assert!(
-        run.stdout.contains("passed: the number of blades (or the gear) is right, and the clock of the recorder is right within 0.5 %"),
+        run.stdout.contains(
+            "passed: the number of blades (or the gear) is right, and the clock of the recorder is right within 0.5 %"
+        ),
         "{}",
         run.stdout
     );

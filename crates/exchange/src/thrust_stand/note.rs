@@ -199,8 +199,8 @@ impl fmt::Display for TableNote {
                 write!(f, "{noun} {names} {verb} not used: the {what} comes from column \"{chosen}\"")
             }
             Self::TurnedRound => f.write_str(
-                "the thrusts are negative, and are used as positive ones: a stand that is mounted the other \
-                 way shows the other sign",
+                "the thrusts are negative, and are used as positive ones, because a stand that is mounted the other \
+                 way shows the other sign; if yours is not, check the column of the thrust",
             ),
             Self::AgainstTheOthers { line, .. } => {
                 write!(f, "line {line} is left out: its thrust is zero, or has another sign than the others")

@@ -55,7 +55,9 @@ fn of_two_trials_that_differ_both_are_named() {
     let said = misfiled(&fitted(&loads));
     assert_eq!(said.len(), 1, "{said:?}");
     assert!(
-        said[0].contains("by the rotor speeds, load 0/1.wav has 12 % more thrust than load 0/0.wav, but both are of load \"load 0\""),
+        said[0].contains(
+            "by the rotor speeds, load 0/1.wav has 12 % more thrust than load 0/0.wav, but both are of load \"load 0\""
+        ),
         "{said:?}"
     );
 }

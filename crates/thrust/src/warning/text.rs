@@ -59,7 +59,7 @@ impl fmt::Display for ThrustWarning {
                 "the loads or rows form two groups: C_f of one group is twice C_f of the other, or more, and nothing shows which group is right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
-            Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
+            Self::SingleLoad => f.write_str("there is only one load with a speed, so the law cannot be tested"),
             Self::OneRecordingEach { load_count } => f.write_str(one_each_text(*load_count)),
             Self::EqualLoads { count: 2 } => f.write_str("both loads have the same force, or nearly so"),
             Self::EqualLoads { count } => write!(f, "all {count} loads have the same force, or nearly so"),
