@@ -44,20 +44,29 @@ pub enum CutReason {
     TooShort,
 }
 
+impl CutReason {
+    /// The reason in words, without its numbers.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Silence => "silence",
+            Self::HandlingNoise => "handling noise",
+            Self::OtherSpeed { .. } => "another speed",
+            Self::TakeOff => "take-off",
+            Self::Landing => "landing",
+            Self::Manoeuvre => "manoeuvre",
+            Self::NoTone => "no steady rotor",
+            Self::Edge => "transition to or from the hover",
+            Self::TooShort => "steady, but too short for a hover",
+        }
+    }
+}
+
 impl fmt::Display for CutReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.words())?;
         match self {
-            Self::Silence => f.write_str("silence"),
-            Self::HandlingNoise => f.write_str("handling noise"),
-            Self::OtherSpeed { speed_rev_s } => {
-                write!(f, "another speed ({speed_rev_s:.1} rev/s)")
-            }
-            Self::TakeOff => f.write_str("take-off"),
-            Self::Landing => f.write_str("landing"),
-            Self::Manoeuvre => f.write_str("manoeuvre"),
-            Self::NoTone => f.write_str("no steady rotor"),
-            Self::Edge => f.write_str("transition to or from the hover"),
-            Self::TooShort => f.write_str("steady, but too short for a hover"),
+            Self::OtherSpeed { speed_rev_s } => write!(f, " ({speed_rev_s:.1} rev/s)"),
+            _ => Ok(()),
         }
     }
 }

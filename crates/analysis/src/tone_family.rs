@@ -157,7 +157,7 @@ pub struct Reading {
     pub motor_speed: RotorSpeed,
     /// Speed of the blade tips over the speed of sound, where the diameter is known.
     pub tip_mach: Option<f64>,
-    /// C_T = T/(ρ n² D⁴) of a hover (propeller convention), where diameter, mass and rotors are known.
+    /// C_T = F/(ρ n² D⁴) of a hover (propeller convention), where diameter, mass and rotors are known.
     pub thrust_coefficient: Option<f64>,
     /// Plausibility from 0 to 1. The readings of a family sum to 1, or to less where only rare ones are left. 0 for excluded readings.
     pub plausibility: f64,

@@ -183,11 +183,8 @@ impl Warning {
                 "to separate them and get a smaller ±, place the microphone nearer; rotors at nearly equal speeds \
                 cannot be separated"
             }
-            Self::RotorsNotApart { resolved: 1.., .. } => {
-                "the speed is the mean of the separated rotors, and its ± is larger, because the speed of the others is not known; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
-            }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all rotors, and its ± is larger, because not all were separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+                "the speed is the mean of all heard rotors, and its ± is larger, because not all could be separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
             }
             Self::RotorCountUnknown { .. } => {
                 "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several rotors, place the microphone nearer"
@@ -268,8 +265,8 @@ impl fmt::Display for Warning {
             Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
-                "the sound contradicts the given facts: another rotor ({blades} blades at {speed_rev_s:.1} rev/s) is \
-                more than 99 times as probable as every rotor that fits these facts"
+                "the sound contradicts the given facts: {blades} blades at {speed_rev_s:.1} rev/s are \
+                more than 99 times as probable as any rotor that fits these facts"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(

@@ -24,7 +24,7 @@ mod track;
 
 pub use columns::{MEANING_KEY, UNIT_KEY};
 pub use drift::{
-    Archives, Change, Drift, FALSE_ALARM_CHANCE, RecordingChange, RotorChange, drift_json, drift_of, drift_text,
+    Archives, Change, Drift, FALSE_ALARM_CHANCE, RecordingChange, RotorChange, Unused, drift_json, drift_of, drift_text,
 };
 pub use error::ArchiveError;
 pub use identity::{BatchIdentity, FORMAT};

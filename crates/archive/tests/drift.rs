@@ -125,8 +125,9 @@ fn nothing_is_compared_with_nothing() {
     }
     let sounding = archive(STILL, &mut random);
     let drift = drift_of(Archives { earlier: &silent, later: &sounding });
-    let silent_files: Vec<String> = silent.iter().map(|summary| summary.file.clone()).collect();
-    assert_eq!((drift.rotors.len(), drift.earlier_unused, silent_files.len()), (0, silent_files, 10));
+    let files: Vec<&str> = drift.earlier_unused.iter().map(|unused| unused.file.as_str()).collect();
+    assert_eq!((drift.rotors.len(), files), (0, silent.iter().map(|summary| summary.file.as_str()).collect()));
+    assert!(drift.earlier_unused.iter().all(|unused| !unused.has_speed) && silent.len() == 10);
 }
 
 /// The speeds of rotors with their labels, each with an error of 0.1 % in each recording.

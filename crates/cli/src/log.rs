@@ -21,7 +21,8 @@ use std::path::Path;
 /// Name of a log in messages.
 pub(crate) const THE_LOG: &str = "the log";
 const IS_RECORDING: &str = "this is a recording, but a log is needed";
-const HINT_OF_RECORDING: &str = "give the log of the flight; `hovertone speed` hears a recording";
+const HINT_OF_RECORDING: &str =
+    "leave the recording out, or give the log of the flight in its place; `hovertone speed` hears a recording";
 /// The commands that take names for columns.
 const WITH_COLUMNS: [&str; 4] = ["log", "motor", "verify", "greybox"];
 const SIGNALS: TextKind =
@@ -215,7 +216,7 @@ fn electrical_notice(columns: &[ElectricalColumn]) -> Option<Notice> {
     };
     let hint = format!(
         "count the magnets in the bell of a motor (Betaflight's setting motor_poles), and give their number with --column. For 14 magnets, as in most \
-         motors, run: {}{}{unit}",
+         small motors (for another number, write it in place of 14), run: {}{}{unit}",
         typed_command(),
         names.collect::<String>()
     );

@@ -11,7 +11,7 @@ pub(crate) fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Resul
     let refuse = |name: &str, quantity: &str, unit: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
         let what = format!(
-            "{name} = {}: this uncertainty is too large: twice its value must be less than the {quantity}, {} {unit}",
+            "{name} = {}: this standard uncertainty is too large: twice its value, the ±, must be less than the {quantity}, {} {unit}",
             number_in_words(std),
             number_in_words(estimate.value)
         );
@@ -30,11 +30,15 @@ pub(crate) fn check_stds(scale: &AcousticScale, results: Option<&Path>) -> Resul
             "constant",
             "N s²",
             constant,
-            "give the uncertainty in N s², as the constant: 1 % of 2.8e-5 is 2.8e-7",
+            "give half the ± of the constant, in N s²: for a constant of (2.83 ± 0.02) 1e-5, give 0.01e-5",
         ),
-        (_, Some(mass)) if is_swamped(&mass) => {
-            refuse("mass_std_kg", "mass", "kg", mass, "give the uncertainty in kilograms: for 0.5 g write 0.0005")
-        }
+        (_, Some(mass)) if is_swamped(&mass) => refuse(
+            "mass_std_kg",
+            "mass",
+            "kg",
+            mass,
+            "give half the ± of the mass, in kilograms: for ± 1 g write 0.0005",
+        ),
         _ => Ok(()),
     }
 }

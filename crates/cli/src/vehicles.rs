@@ -100,7 +100,7 @@ pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
     let list = known.join(", ");
     if preset(name).is_ok() {
         let hint = format!(
-            "it has such a model only of these: {list}; none of them stands for another vehicle, because its data would be wrong"
+            "this command works only with these vehicles: {list}; do not give one of them in place of another vehicle, because the result would be wrong"
         );
         return (
             format!(

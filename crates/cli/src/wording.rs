@@ -36,13 +36,10 @@ pub(crate) const IN_HOVER: Wording = Wording {
 };
 
 /// Behind `verify`, which compares the speeds of each moment, without the speed of the recording: its table names what is compared.
-pub(crate) const IN_VERIFY: Wording = Wording::of_phrases(&[
-    ("the speed is the mean of all rotors, and its ± is larger, because not all were separated; ", ""),
-    (
-        "the speed is the mean of the separated rotors, and its ± is larger, because the speed of the others is not known; ",
-        "",
-    ),
-]);
+pub(crate) const IN_VERIFY: Wording = Wording::of_phrases(&[(
+    "the speed is the mean of all heard rotors, and its ± is larger, because not all could be separated; ",
+    "",
+)]);
 
 #[cfg(test)]
 mod tests {
@@ -121,7 +118,10 @@ mod tests {
             spread_share: 0.006,
         };
         for (has_mean, begins) in [
-            (true, "C_f uses the mean speed of all rotors, and its ± is larger, because not all were separated; "),
+            (
+                true,
+                "C_f uses the mean speed of all heard rotors, and its ± is larger, because not all could be separated; ",
+            ),
             (false, "the ± of C_f includes this uncertainty; "),
         ] {
             let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());

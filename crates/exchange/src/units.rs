@@ -25,7 +25,7 @@ impl ConstantUnits {
         Self::from_n_rpm2(g_rpm2 * 1e-3 * GRAVITY_STANDARD_M_S2)
     }
 
-    /// From T/(ρ n² D⁴).
+    /// From F/(ρ n² D⁴).
     pub fn from_coefficient(propeller: f64, density_kg_m3: f64, diameter_m: f64) -> Self {
         Self { n_s2: propeller * density_kg_m3 * diameter_m.powi(4) / TAU.powi(2) }
     }
@@ -50,7 +50,7 @@ impl ConstantUnits {
         self.n_rpm2() * 1e3 / GRAVITY_STANDARD_M_S2
     }
 
-    /// T/(ρ n² D⁴).
+    /// F/(ρ n² D⁴).
     pub fn coefficient(self, density_kg_m3: f64, diameter_m: f64) -> f64 {
         self.n_s2 * TAU.powi(2) / (density_kg_m3 * diameter_m.powi(4))
     }

@@ -8,7 +8,7 @@
 //! container   recognises the content                  wave, matroska, ogg, iso, mpeg_audio: facts in the headers
 //! tracks      the audio tracks, a plan for each       choose: the first that is not silent
 //! plan        how one track is decoded                native, opus, wave, quicktime, ffmpeg: packets or samples → frames
-//! recording   trims, mixes, counts errors             frames, mix, mix_loss, warning
+//! recording   trims, mixes, counts errors             frames, mix, mix_loss, warning; recording_info: its facts
 //! coded_file  needs another decoder                   coded, packets: packets for it; decoded: its samples
 //! ```
 //!
@@ -43,6 +43,7 @@ mod piped;
 mod plan;
 mod quicktime;
 mod recording;
+mod recording_info;
 mod samples;
 mod source;
 mod tracks;
@@ -56,6 +57,7 @@ pub use error::MediaError;
 pub use ffmpeg::FfmpegUse;
 pub use file_access::{FileAccess, OpenFile, ReadSeek};
 pub use piped::PipedSound;
-pub use recording::{Decoder, OpenOptions, Recording, RecordingInfo};
+pub use recording::{OpenOptions, Recording};
+pub use recording_info::{Decoder, RecordingInfo};
 pub use samples::Samples;
 pub use warning::MediaWarning;

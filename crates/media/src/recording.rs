@@ -19,6 +19,7 @@ use crate::frames::{Frames, Incidents, Trim};
 use crate::mix::Mix;
 use crate::mix_loss::MixLoss;
 use crate::plan::{Plan, Route};
+use crate::recording_info::{Decoder, RecordingInfo};
 use crate::samples::Samples;
 use crate::tracks::Tracks;
 use crate::warning::{MediaWarning, Warnings};
@@ -42,46 +43,6 @@ pub struct OpenOptions {
     pub ffmpeg: FfmpegUse,
     /// The sound of the file, where another decoder has decoded the packets of [`crate::CodedSound`].
     pub decoded: Option<DecodedSound>,
-}
-
-/// The decoder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Decoder {
-    /// This crate.
-    Native,
-    /// An ffmpeg in another process.
-    Ffmpeg,
-    /// The program around this crate, such as a browser.
-    Caller,
-}
-
-/// Facts about a recording from its headers and first frames.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct RecordingInfo {
-    /// Recognised by the content.
-    pub container: Container,
-    /// Name of the codec for people.
-    pub codec: String,
-    /// Samples per second: the rate in the file, with the correction of the recorder's clock.
-    pub sample_rate_hz: f64,
-    /// That correction, in millionths; positive for a clock that runs fast.
-    pub clock_correction_ppm: f64,
-    /// Channels of the track.
-    pub channel_count: usize,
-    /// Number of the selected channel, counted from 1; `None` for the mean of all.
-    pub channel: Option<usize>,
-    /// Number of the selected track, counted from 1.
-    pub audio_track: usize,
-    /// Number of audio tracks in the file.
-    pub audio_track_count: usize,
-    /// Length of the sound in the header, where it has one; it can be wrong.
-    pub declared_duration_s: Option<f64>,
-    /// Time of the first sample on the clock of the recording.
-    pub start_s: f64,
-    /// The decoder.
-    pub decoder: Decoder,
 }
 
 /// An open recording. It reads the file block by block: memory does not grow with its length.
@@ -197,13 +158,12 @@ impl Recording {
         let pass = Pass::start(&*file, &plan)?;
         let (sample_rate_hz, channel_count) = (pass.frames.sample_rate_hz(), pass.frames.channel_count());
         let container = plan.container;
+        let bad = |field, value, limit| Err(MediaError::BadHeader { container, field, value, limit });
         if !(sample_rate_hz.is_finite() && sample_rate_hz >= 1.0) {
-            let (field, limit) = ("the sample rate", "at least 1 Hz");
-            return Err(MediaError::BadHeader { container, field, value: sample_rate_hz as u64, limit });
+            return bad("the sample rate", sample_rate_hz as u64, "at least 1 Hz");
         }
         if channel_count == 0 || channel_count > CHANNEL_COUNT_MAX {
-            let (field, limit) = ("the number of channels", "1 to 256");
-            return Err(MediaError::BadHeader { container, field, value: channel_count as u64, limit });
+            return bad("the number of channels", channel_count as u64, "1 to 256");
         }
         let mix = Mix::of(channel_count, options.channel)?;
         let info = RecordingInfo {
@@ -217,11 +177,7 @@ impl Recording {
             audio_track_count,
             declared_duration_s: plan.declared_s.or(plan.approximate_s),
             start_s: plan.start_s,
-            decoder: match plan.route {
-                Route::Ffmpeg { .. } => Decoder::Ffmpeg,
-                Route::Decoded(_) => Decoder::Caller,
-                _ => Decoder::Native,
-            },
+            decoder: Decoder::of(&plan.route),
         };
         let mut recording = Self { file, plan, info, warnings, mix, pass, block: Vec::new(), is_prefix: false };
         recording.fill_block().map_err(MediaError::Read)?;

@@ -150,7 +150,7 @@ impl Answer {
             plain_mean: table.plain_mean_total_n_s2.map(Number::bare),
             coefficient: table
                 .coefficients
-                .map(|both| format!("{:.4} = T/(ρ n² D⁴), or {:.5} = T/(ρ A (ωR)²)", both.propeller, both.rotorcraft)),
+                .map(|both| format!("{:.4} = F/(ρ n² D⁴), or {:.5} = F/(ρ A (ωR)²)", both.propeller, both.rotorcraft)),
             verdict: Verdict::of(table),
         })
     }

@@ -22,6 +22,10 @@ const SMALL_INTERCEPT_N: f64 = 0.1;
 /// Parameters of the largest compared law: more points tell whether it is needed.
 const LAW_PARAMETERS: usize = 2;
 
+/// Ratios of the budget and the bootstrap that are usual where few recordings scatter.
+const CHECKED_LOW: f64 = 0.4;
+const CHECKED_HIGH: f64 = 2.5;
+
 /// Laws and budget of the table of one method; empty without a fit.
 pub fn adequacy_text(table: &ThrustTable, width: Option<usize>) -> String {
     let (Some(fit), Some(budget)) = (&table.fit, &table.budget) else { return String::new() };
@@ -234,11 +238,14 @@ fn cross_check(bootstrap: Option<TrialBootstrap>, budget: &UncertaintyBudget, co
     bootstrap.map_or(String::new(), |drawn| {
         format!(
             "check: hovertone repeated the fit {} times, each time with a random choice of the recordings (bootstrap). C_f of these fits \
-            scatters by {} % (standard deviation, from the speeds alone). In the budget, the two rows \"speed\" make {} %. With few recordings, \
-            one of these two numbers is often twice the other\n",
+            scatters by {} % (standard deviation, from the speeds alone). In the budget, the two rows \"speed\" together make {} %{}\n",
             drawn.draws,
             percent(drawn.std_uncertainty_n_s2),
             percent(by_budget),
+            match by_budget / drawn.std_uncertainty_n_s2 {
+                CHECKED_LOW..=CHECKED_HIGH => ", which agrees: with few recordings, one is often twice the other",
+                _ => ". The two differ by more than usual: use the larger one, or record more flights",
+            },
         )
     })
 }

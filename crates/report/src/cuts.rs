@@ -10,7 +10,6 @@ const STRETCHES_MAX: usize = 6;
 const SEGMENTS_SHOWN: usize = 2;
 /// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
-const EDGE: &str = "transition to or from the hover";
 
 /// A stretch of cuts that follow each other, with the time that each reason cuts of it. A hover's edge belongs to the stretch beside it.
 struct Stretch {
@@ -68,7 +67,8 @@ impl Stretch {
 
     /// Whether a cut that follows belongs to this stretch.
     fn takes(&self, reason: &'static str) -> bool {
-        self.names().all(|known| known == EDGE) || reason == EDGE || self.names().any(|known| known == reason)
+        let edge = CutReason::Edge.words();
+        self.names().all(|known| known == edge) || reason == edge || self.names().any(|known| known == reason)
     }
 }
 
@@ -80,28 +80,13 @@ fn add(sums: &mut Vec<(&'static str, f64)>, reason: &'static str, length_s: f64)
     }
 }
 
-fn in_words(reason: CutReason) -> &'static str {
-    match reason {
-        CutReason::Silence => "silence",
-        CutReason::HandlingNoise => "handling noise",
-        CutReason::OtherSpeed { .. } => "another speed",
-        CutReason::TakeOff => "take-off",
-        CutReason::Landing => "landing",
-        CutReason::Manoeuvre => "manoeuvre",
-        CutReason::NoTone => "no steady rotor",
-        CutReason::Edge => EDGE,
-        CutReason::TooShort => "steady, but too short for a hover",
-        _ => "not hover",
-    }
-}
-
 /// Cuts in order of time, without what overlaps.
 fn joined(cuts: &[Cut]) -> Vec<Stretch> {
     let mut cuts: Vec<&Cut> = cuts.iter().collect();
     cuts.sort_by(|a, b| a.span.from_s.total_cmp(&b.span.from_s));
     let mut stretches: Vec<Stretch> = Vec::new();
     for cut in cuts {
-        let reason = in_words(cut.reason);
+        let reason = cut.reason.words();
         // frames of the survey overlap the next cut: time that is already listed is skipped
         let listed_s = stretches.last().map_or(f64::NEG_INFINITY, |before| before.span.to_s);
         let span = Span { from_s: cut.span.from_s.max(listed_s), to_s: cut.span.to_s.max(listed_s) };

@@ -91,7 +91,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let constant = table.thrust_constant_per_rotor_n_s2;
     let meaning = constant.std_uncertainty.map_or("± is not known", |_| "k = 2");
     let left_out = match table.fit.points.iter().filter(|point| point.is_gross).count() {
-        0 => String::new(),
+        0 => " used".to_owned(),
         count => format!(", {count} of them left out of the fit"),
     };
     let doubt = if table.forbids_use { "do not use this constant: " } else { "" };
@@ -103,7 +103,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
         ),
     };
     let mut text = format!(
-        "{}\n{}{left_out}, {} against {}\n\n{}{of_all}\n{total}{doubt}C_f, one rotor = {} ({meaning})\n",
+        "{}\n{}{left_out}: {} against {}\n\n{}{of_all}\n{total}{doubt}C_f, one rotor = {} ({meaning})\n",
         printable(&table.name()),
         counted(table.row_count, "table row"),
         printable(&table.force_column),

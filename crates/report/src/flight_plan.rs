@@ -48,7 +48,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     };
     format!(
         "Plan: {} loads ({} added), {} of each load, {:.0} s of steady hover in each recording: {hover} of steady hover in all\n\
-         Wanted: C_f ± {} % or less (k = 2; change it with --wanted-share). Expected: ± {} %. The largest part of this ± comes from: \
+         Wanted (--wanted-share): C_f ± {} % or less (k = 2). Expected: ± {} %. The largest part of this ± comes from: \
          {}.{advice}\n{intercept}\n",
         plan.load_count,
         in_list(&added, "and"),

@@ -19,7 +19,7 @@
 //! motor        constants of motors, from steps in a log   motor_json    the same for programs
 //! grey_box     the low-level model of eqs 1 and 2         flight_log    the log of a recording's flight
 //! flight_log_tables  the same as tables                wording     advice in the words of a command
-//! missing_speed  why a recording has no speed
+//! missing_speed  why a recording has no speed        tone_line     the line of a tone family
 //! ```
 
 mod adequacy;
@@ -60,6 +60,7 @@ mod speed;
 mod table_lines;
 mod text_table;
 mod thrust;
+mod tone_line;
 mod tones;
 mod track;
 mod typeset;

@@ -195,7 +195,7 @@ fn load_text(constants: &MotorConstants) -> String {
             format!("rising steps to {LOAD_STEPS_MIN} different speeds are needed, and there {are} {count}")
         } else {
             format!(
-                "the time constants of the {count} rising steps are too uncertain for this range of speeds; make more \
+                "the ± of the time constants of the {count} rising steps is too large to see a change between these speeds; make more \
                 rising steps, to speeds that differ more"
             )
         };
@@ -213,8 +213,8 @@ fn torque_text(torque: &BenchTorque) -> String {
         BenchTorque::Told { constant_n_m_s2, offset_n_m, level_count } => {
             let offset = significant(*offset_n_m, 2);
             let how = format!(
-                " (k = 2, without the calibration error of the torque sensor), in torque = C_τ ω², from {level_count} steady speeds. A straight line of \
-                the torque against ω² has {offset} N m at speed 0: this is an offset of the sensor, and no part of C_τ"
+                " (k = 2, without the calibration error of the torque sensor), the slope of a straight line of the torque against ω², from \
+                {level_count} steady speeds. At speed 0, this line is at {offset} N m, probably the zero of the sensor: C_τ does not include it"
             );
             Ok((*constant_n_m_s2, how))
         }

@@ -73,7 +73,7 @@ pub fn planned_experiment_text(plan: &PlannedExperiment<'_>, width: Option<usize
     };
     let heard = plan.loads.iter().map(|load| load.recordings.len()).sum();
     let mut text = format!(
-        "{}: {}, {}, {diameter}; {}, {}, method {}\n\n",
+        "{}: {}, {}, {diameter}; {}, {}; method: {}\n\n",
         printable(plan.vehicle_name),
         counted(plan.rotor_count as usize, "rotor"),
         tone_of_order(plan.order),
@@ -161,7 +161,7 @@ mod tests {
         };
         let text = planned_experiment_text(&plan, None);
         for words in [
-            "4 rotors, tone at 2 times the rotor speed, diameter of the propellers not known; 2 loads, 2 recordings, method maximum trace",
+            "4 rotors, tone at 2 times the rotor speed, diameter of the propellers not known; 2 loads, 2 recordings; method: maximum trace",
             "0.444",
             "1:02",
             "44.1 kHz, 1 channel",

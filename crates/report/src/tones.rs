@@ -6,16 +6,13 @@ use crate::printable::printable;
 use crate::recording::{Found, RecordingFacts, SpeedRecord};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
+use crate::tone_line::{DIGITS, Whole, digits, kind_and_place};
 use crate::version::VERSION;
 use hovertone_analysis::{Meaning, Reading, Remark, SeenHarmonic, SpeedEstimate, ToneFamily};
 use hovertone_vehicle::{Gear, Order};
 use serde::Serialize;
 use serde_json::Value;
 
-/// Digits of a frequency or speed from the survey.
-const DIGITS: usize = 4;
-/// Standard deviation of a fundamental over time, Hz, up to which a tone is steady: it has two decimals.
-const STEADY_HZ: f64 = 0.1;
 /// Indentation of the table of a family.
 const INDENT: &str = "   ";
 
@@ -68,7 +65,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         return text + "could not be read\n";
     }
     let Some(found) = record.found.as_ref() else { return text };
-    let heard_s = record.analysis().map_or(f64::INFINITY, |analysis| analysis.heard.length_s());
+    let whole = Whole::of(record);
     let rotor = found.rotor.filter(|_| record.tone().is_some());
     let remark = rotor.and_then(|rotor| found.families.get(rotor)).and_then(|family| family.remark);
     let verdict = match (rotor, remark) {
@@ -81,7 +78,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     };
     text += &format!("{verdict}\n");
     if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
-        let (place, table) = (kind_and_place("rotor", family, heard_s), readings_table(family, width));
+        let (place, table) = (kind_and_place("rotor", family, whole), readings_table(family, width));
         // several possible speeds may belong to other series than the one that is seen best
         text += &match record.is_ambiguous() {
             true => format!("\n{table}\n{place}\n"),
@@ -94,7 +91,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         let kind = match family.remark {
             Some(remark @ (Remark::NearMains | Remark::GearMesh)) => remark.text(),
             _ if is_near && possible_readings(family).next().is_some() => {
-                "another rotor, or the same rotor at a changing speed"
+                "another rotor, or the same rotor at another speed"
             }
             Some(remark) => remark.text(),
             None if rotor.is_none() => "a tone, but probably no rotor",
@@ -105,7 +102,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
             Some(Remark::GearMesh) => String::new(),
             _ => readings_in_a_line(family, of_rotor.as_deref()),
         };
-        text += &format!("\n{}\n{readings}", kind_and_place(kind, family, heard_s));
+        text += &format!("\n{}\n{readings}", kind_and_place(kind, family, whole));
     }
     text
 }
@@ -133,58 +130,6 @@ const NEAR_ROTOR_SHARE: f64 = 0.05;
 /// Harmonics that are named: higher ones are near any tone.
 const OTHER_HARMONICS: std::ops::RangeInclusive<f64> = 2.0..=6.0;
 
-/// A tone that sounds for more of its time has no breaks that count.
-const UNBROKEN_SHARE: f64 = 0.95;
-
-/// A tone that moves by more (standard deviation) has no single frequency.
-const MOVING_SHARE: f64 = 0.002;
-
-/// "rotor: harmonics 1–9 of 360.2 Hz, 31 dB over the noise, all the time".
-fn kind_and_place(kind: &str, family: &ToneFamily, heard_s: f64) -> String {
-    let is_unbroken = family.time_share * heard_s >= UNBROKEN_SHARE * family.span.length_s();
-    let time = match (100.0 * family.time_share).round() {
-        100.0 => "all the time".to_owned(),
-        _ if is_unbroken => format!("from {:.1} to {:.1} s", family.span.from_s, family.span.to_s),
-        percent => {
-            format!(
-                "on and off from {:.1} to {:.1} s, in {percent:.0} % of the recording",
-                family.span.from_s, family.span.to_s
-            )
-        }
-    };
-    let fundamental = significant(family.fundamental_hz, digits(family));
-    let lines = match family.harmonics.len() {
-        0 => format!("faint lines at multiples of {fundamental} Hz"),
-        1 if kind == Remark::SingleLine.text() => format!("{fundamental} Hz"),
-        1 => format!("a {} at {fundamental} Hz", Remark::SingleLine.text()),
-        _ => {
-            let is_moving = family.spread_hz.is_some_and(|spread_hz| spread_hz > MOVING_SHARE * family.fundamental_hz);
-            let about = if is_moving { "about " } else { "" };
-            format!("lines at {} times {about}{fundamental} Hz", numbers_in_words(&family.harmonics))
-        }
-    };
-    let level =
-        if family.harmonics.is_empty() { String::new() } else { format!(", {:.0} dB over the noise", family.level_db) };
-    format!("{kind}: {lines}{level}, {time}")
-}
-
-/// "1–4, 6, 8".
-fn numbers_in_words(harmonics: &[SeenHarmonic]) -> String {
-    let mut ranges: Vec<(u32, u32)> = Vec::new();
-    for number in harmonics.iter().map(|line| line.number) {
-        match ranges.last_mut().filter(|range| range.1 + 1 == number) {
-            Some(range) => range.1 = number,
-            None => ranges.push((number, number)),
-        }
-    }
-    let words = ranges.into_iter().map(|(first, last)| match last - first {
-        0 => first.to_string(),
-        1 => format!("{first}, {last}"),
-        _ => format!("{first}–{last}"),
-    });
-    words.collect::<Vec<_>>().join(", ")
-}
-
 /// The meaning of each reading in words. Where two readings have the same, each has the frequency of its tone too.
 pub(crate) fn meanings_of(readings: &[Reading]) -> Vec<String> {
     let words: Vec<String> = readings.iter().map(|reading| reading.meaning.to_string()).collect();
@@ -203,13 +148,6 @@ pub(crate) fn percent(plausibility: f64) -> String {
         share if (0.985..1.0).contains(&share) => format!("{:.1}", (1000.0 * share).floor() / 10.0),
         share => format!("{:.0}", 100.0 * share),
     }
-}
-
-/// Digits of the frequencies and speeds of a family.
-fn digits(family: &ToneFamily) -> usize {
-    let is_steady = family.spread_hz.is_some_and(|spread_hz| spread_hz < STEADY_HZ);
-    let decimals = family.fundamental_hz.log10().floor().max(0.0) as usize + 3;
-    if is_steady { DIGITS.max(decimals) } else { DIGITS }
 }
 
 fn readings_table(family: &ToneFamily, width: Option<usize>) -> String {
@@ -265,7 +203,7 @@ fn line_of_rotor(family: &ToneFamily, rotor: &ToneFamily) -> Option<String> {
     is_near.then(|| {
         let rev_s = significant(family.fundamental_hz / (harmonic * blades), DIGITS);
         format!(
-            "perhaps {harmonic} times the tone of another rotor of this vehicle, at {rev_s} rev/s ({})",
+            "perhaps harmonic {harmonic} of another rotor of this vehicle, which turns at {rev_s} rev/s ({})",
             reading.meaning
         )
     })
@@ -285,9 +223,12 @@ fn readings_in_a_line(family: &ToneFamily, of_rotor: Option<&str>) -> String {
         }
         false => match of_rotor {
             Some(of_rotor) => {
-                format!("{INDENT}{of_rotor}\n{INDENT}if not, and if it is the tone of a rotor: {}\n", words.join(" · "))
+                format!(
+                    "{INDENT}{of_rotor}\n{INDENT}if not, but if it is the tone of a rotor, this rotor turns at {}\n",
+                    words.join(" or ")
+                )
             }
-            None => format!("{INDENT}if it is the tone of a rotor: {}\n", words.join(" · ")),
+            None => format!("{INDENT}if it is the tone of a rotor, this rotor turns at {}\n", words.join(" or ")),
         },
     }
 }

@@ -35,8 +35,8 @@ pub fn constants_in_units(table: &ThrustTable) -> Vec<ConstantInUnit> {
         in_unit("gram-force/rpm²", units.g_rpm2()),
     ];
     if let Some(both) = table.coefficients {
-        all.push(in_unit("C_T = T/(ρ n² D⁴)", both.propeller));
-        all.push(in_unit("C_T = T/(ρ A (ωR)²)", both.rotorcraft));
+        all.push(in_unit("C_T = F/(ρ n² D⁴)", both.propeller));
+        all.push(in_unit("C_T = F/(ρ A (ωR)²)", both.rotorcraft));
     }
     all
 }

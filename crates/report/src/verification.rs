@@ -76,17 +76,12 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
 
 /// The time to add to the clock of the log, and how it is known.
 fn offset_in_words(found: &Verification) -> String {
-    if found.is_offset_told && !found.is_right() {
-        return format!(
-            "offset of the log: {} s, but it may be wrong, because the check failed\n",
-            signed(found.offset_s, 3)
-        );
-    }
     if found.is_offset_told {
-        return format!(
-            "offset of the log: {} s, the time to add to the clock of the log\n",
-            signed(found.offset_s, 3)
-        );
+        let meaning = match found.is_right() {
+            true => "the time to add to the clock of the log",
+            false => "but it may be wrong, because the check failed",
+        };
+        return format!("offset of the log: {} s, {meaning}\n", signed(found.offset_s, 3));
     }
     let used = signed(found.offset_s, 1);
     if let Some(better_s) = found.better_offset_s.filter(|_| found.is_offset_given) {

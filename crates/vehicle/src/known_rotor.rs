@@ -44,7 +44,7 @@ impl KnownRotor {
         }
     }
 
-    /// Thrust coefficient C_T = T/(ρ n² D⁴) of a hover at the shaft speed n, with T = m g / rotors. `None` unless mass, number of rotors
+    /// Thrust coefficient C_T = F/(ρ n² D⁴) of a hover at the shaft speed n, with F = m g / rotors. `None` unless mass, number of rotors
     /// and diameter are known.
     pub fn hover_thrust_coefficient(&self, shaft_rev_s: f64, air_density_kg_m3: f64) -> Option<f64> {
         let (diameter_m, mass_kg, rotor_count) = (self.diameter_m?, self.mass_kg?, self.rotor_count?);

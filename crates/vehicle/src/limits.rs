@@ -23,7 +23,7 @@ pub const SHAFT_REV_S: RangeInclusive<f64> = 1.0..=1500.0;
 /// than its rotor: the fastest stay below a million rpm. *Physics.*
 pub const LOGGED_REV_S_MAX: f64 = 17_000.0;
 
-/// Thrust coefficients T/(ρ n² D⁴) of hovering propellers. Measured ones lie between 0.06 and 0.15. *Physics.*
+/// Thrust coefficients F/(ρ n² D⁴) of hovering propellers. Measured ones lie between 0.06 and 0.15. *Physics.*
 pub const THRUST_COEFFICIENT: RangeInclusive<f64> = 0.03..=0.25;
 
 /// Largest ratio between two masses of one vehicle: its given and its known mass, or with and without load. Beyond it one of the two is in

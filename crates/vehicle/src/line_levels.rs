@@ -61,7 +61,7 @@ pub struct LineLevels {
     pub slow_rev_s: f64,
     /// Standard deviation of the logarithm of slower speeds.
     pub slow_std: f64,
-    /// Mean thrust coefficient C_T = T/(ρ n² D⁴) of hovering propellers.
+    /// Mean thrust coefficient C_T = F/(ρ n² D⁴) of hovering propellers.
     pub thrust_coefficient: f64,
     /// Standard deviation of its logarithm.
     pub thrust_coefficient_std: f64,

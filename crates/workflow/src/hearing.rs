@@ -311,7 +311,7 @@ fn written(settings: &impl Serialize) -> Value {
 /// The notice which reading of the tone was used, where the order was not given.
 fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     let reading = record.found_reading().filter(|_| record.speed().is_some())?;
-    let text = format!("the number of blades is not given; the sound shows {} ({})", reading.meaning, reading.why);
+    let text = format!("the number of blades is not given; hovertone uses {}: {}", reading.meaning, reading.why);
     Some(Notice::new(
         text,
         "if this is wrong, give --blades N (and --gear PINION:WHEEL for a gear); `hovertone tones` shows all possible speeds",

@@ -80,6 +80,15 @@ pub struct Change {
     pub has_changed: bool,
 }
 
+/// A recording that is not compared.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Unused {
+    /// Its name.
+    pub file: String,
+    /// Whether it has a speed; then the other archive has no recording of the same name with one.
+    pub has_speed: bool,
+}
+
 /// What has changed between two archives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Drift {
@@ -91,10 +100,10 @@ pub struct Drift {
     pub rotors: Vec<RotorChange>,
     /// Each recording of the same name.
     pub recordings: Vec<RecordingChange>,
-    /// Files of the earlier archive whose recordings have no speed, or no recording of the same name with one.
-    pub earlier_unused: Vec<String>,
+    /// Recordings of the earlier archive without a speed, or without a recording of the same name with one.
+    pub earlier_unused: Vec<Unused>,
     /// The same of the later archive.
-    pub later_unused: Vec<String>,
+    pub later_unused: Vec<Unused>,
 }
 
 /// The changes from the earlier archive to the later one.
@@ -131,12 +140,13 @@ pub fn drift_of(archives: Archives<'_>) -> Drift {
     let mut recordings: Vec<RecordingChange> = recordings.into_iter().flatten().collect();
     holm::adjust(recordings.iter_mut().map(|row| &mut row.change).collect());
     holm::adjust(rotors.iter_mut().map(|row| &mut row.change).collect());
-    let unused = |all: &[Summary], in_pairs: BTreeSet<&str>| -> Vec<String> {
+    let unused = |all: &[Summary], in_pairs: BTreeSet<&str>| -> Vec<Unused> {
         let is_used = |summary: &&Summary| match is_paired {
             true => in_pairs.contains(summary.file.as_str()),
             false => summary.speed.is_some(),
         };
-        all.iter().filter(|summary| !is_used(summary)).map(|summary| summary.file.clone()).collect()
+        let unused = |summary: &Summary| Unused { file: summary.file.clone(), has_speed: summary.speed.is_some() };
+        all.iter().filter(|summary| !is_used(summary)).map(unused).collect()
     };
     Drift {
         is_paired,

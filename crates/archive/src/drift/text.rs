@@ -1,7 +1,7 @@
 //! Changes between two archives as text for people and as JSON.
 
 use super::tail::covering_stds;
-use super::{Change, Drift, FALSE_ALARM_CHANCE};
+use super::{Change, Drift, FALSE_ALARM_CHANCE, Unused};
 use hovertone_report::{Column, TextTable, VERSION, counted, fixed, printable, signed, table_text};
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -58,23 +58,27 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
     )
 }
 
-/// Which recordings are not compared, and why.
+/// Which recordings are not compared, and why: a line for each archive and reason.
 fn unused_text(drift: &Drift) -> String {
-    let of_archive = |files: &[String], which: &str| {
-        let named: Vec<String> = files.iter().take(FILES_MAX).map(|file| printable(file)).collect();
+    let line = |unused: &[Unused], archive: &str, has_speed: bool, why: &str| {
+        let files: Vec<String> =
+            unused.iter().filter(|it| it.has_speed == has_speed).map(|it| printable(&it.file)).collect();
         let more = match files.len().saturating_sub(FILES_MAX) {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        (!files.is_empty()).then(|| format!("{}{more} (in the {which} archive)", named.join(", ")))
+        let named = files[..files.len().min(FILES_MAX)].join(", ");
+        if files.is_empty() {
+            String::new()
+        } else {
+            format!("not compared, {archive} archive: {named}{more} ({why})\n")
+        }
     };
-    let unused = [of_archive(&drift.earlier_unused, "earlier"), of_archive(&drift.later_unused, "later")];
-    let unused: Vec<String> = unused.into_iter().flatten().collect();
-    let or_no_partner = if drift.is_paired { ", or the other archive has no recording of the same name" } else { "" };
-    match unused.is_empty() {
-        true => String::new(),
-        false => format!("not compared: {}, because no speed was heard{or_no_partner}\n", unused.join("; ")),
-    }
+    let of_archive = |unused: &[Unused], archive: &str, other: &str| {
+        line(unused, archive, false, "no speed was heard")
+            + &line(unused, archive, true, &format!("the {other} archive has no speed of a recording with this name"))
+    };
+    of_archive(&drift.earlier_unused, "earlier", "later") + &of_archive(&drift.later_unused, "later", "earlier")
 }
 
 /// Whether rotors are compared one by one, and not their mean alone.
@@ -87,8 +91,8 @@ fn not_single_text(drift: &Drift) -> &'static str {
     match has_single_rotors(drift) {
         true => "",
         false => {
-            "only the mean of all rotors is compared, because the two archives have no separated rotors to compare one by one. With --mean-only, \
-            `hovertone batch` does not separate them; without it, these rotors could not be separated. If one rotor ran alone, the mean is its speed\n"
+            "only the mean of all rotors is compared, because the two archives have no separated rotors to compare one by one: either \
+            `hovertone batch` ran with --mean-only, or it could not separate the rotors, or one rotor ran alone (then the mean is its speed)\n"
         }
     }
 }

@@ -56,7 +56,7 @@ pub(super) fn offsets(text: &str) -> Result<(f64, f64), String> {
             Err(format!("the two numbers are exchanged: write the smaller one first, {high_s}:{low_s}"))
         }
         Some(limits) => Ok(limits),
-        None => Err("a range is needed, the smallest and the largest offset: in seconds as in -5:5 (from −5 s to 5 s), with minutes as in -0:05..1:10 (from −5 s to 1 min 10 s)"
+        None => Err("a range is needed: the smallest and the largest offset in seconds, as in -5:5 (from −5 s to 5 s); if you know the offset, give a small range around it"
             .to_owned()),
     }
 }

@@ -1,5 +1,6 @@
 //! A heard speed against the known one, in words and as JSON.
 
+use super::clock_words::clock_in_words;
 use super::{AMBIGUOUS, BAND_SHARE, HARDLY_HEARD, MILLION, OTHER_ROTOR, SEVERAL_ROTORS, band_around};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
@@ -7,7 +8,7 @@ use crate::order_words::{times, times_per_turn};
 use crate::vehicles::preset;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
 use hovertone::thrust::COVERAGE_FACTOR;
-use hovertone_report::{fixed, printable, signed, with_uncertainty};
+use hovertone_report::{fixed, printable, with_uncertainty};
 use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Gear, Order, RotorSpeed};
 use serde_json::json;
 
@@ -21,11 +22,7 @@ const ROUNDED_RPM: f64 = 10.0;
 /// Millionths in a hundredth.
 const PPM_PER_PERCENT: f64 = 1e4;
 /// Largest error of a clock.
-const CLOCK_PERCENT_MAX: f64 = CLOCK_CORRECTION_PPM_MAX / PPM_PER_PERCENT;
-/// What a crystal changes with the warmth of a room, in millionths: a correction is no better.
-const WARMTH_PPM: f64 = 5.0;
-/// Error that hardly any recorder exceeds, in millionths: quartz crystals are cut to 20 to 100.
-const USUAL_PPM_MAX: f64 = 200.0;
+pub(super) const CLOCK_PERCENT_MAX: f64 = CLOCK_CORRECTION_PPM_MAX / PPM_PER_PERCENT;
 
 /// What is known.
 #[derive(Clone, Copy)]
@@ -38,13 +35,13 @@ pub(super) enum Reference {
 
 impl Reference {
     /// Standard uncertainty of the number, as a share; 0 where none is given.
-    fn std_share(self) -> f64 {
+    pub(super) fn std_share(self) -> f64 {
         let (Self::Speed { std_share, .. } | Self::Tone { std_share, .. }) = self;
         std_share
     }
 
     /// What is known, in one word.
-    fn quantity(self) -> &'static str {
+    pub(super) fn quantity(self) -> &'static str {
         match self {
             Self::Speed { .. } => "speed",
             Self::Tone { .. } => "frequency",
@@ -65,7 +62,7 @@ pub(super) struct HeardSpeed {
 /// A heard speed, what was known, and their comparison.
 pub(super) struct Comparison {
     heard: HeardSpeed,
-    reference: Reference,
+    pub(super) reference: Reference,
     pub(super) check: SpeedCheck,
 }
 
@@ -113,12 +110,12 @@ impl Comparison {
     }
 
     /// Whether the known number has more of the ± than the heard one.
-    fn is_known_the_less_exact(&self) -> bool {
+    pub(super) fn is_known_the_less_exact(&self) -> bool {
         self.reference.std_share() >= self.heard.std_rev_s.unwrap_or(0.0) / self.heard.speed.rev_s()
     }
 
     /// The smaller of the ± of the known number and that of the heard one, ppm.
-    fn least_expanded_ppm(&self) -> f64 {
+    pub(super) fn least_expanded_ppm(&self) -> f64 {
         let heard = self.heard.std_rev_s.unwrap_or(0.0) / self.heard.speed.rev_s();
         COVERAGE_FACTOR * MILLION * heard.min(self.reference.std_share())
     }
@@ -154,7 +151,7 @@ impl Comparison {
     }
 
     /// The correction for the setting: on top of the one with which the recording was opened.
-    fn whole_correction_ppm(&self, before_ppm: f64) -> f64 {
+    pub(super) fn whole_correction_ppm(&self, before_ppm: f64) -> f64 {
         MILLION * ((1.0 + before_ppm / MILLION) * (1.0 + self.check.correction_ppm / MILLION) - 1.0)
     }
 }
@@ -180,11 +177,11 @@ pub(super) fn heard_beside_known(reference: Reference, heard: RotorSpeed) -> Opt
     let slip = [2.0, 3.0, 4.0, 0.5].into_iter().find(|slip| is_near(*slip, SLIP_SHARE));
     let checked = |slip| {
         format!(
-            "; the heard speed is about {about} rpm, {}: check the number of blades, also in the settings of the tachometer",
+            "; on average, the heard speed is about {about} rpm, {}: check the number of blades, also in the settings of the tachometer",
             of_known(slip)
         )
     };
-    Some(slip.map_or_else(|| format!("; the heard speed is about {about} rpm"), checked))
+    Some(slip.map_or_else(|| format!("; on average, the heard speed is about {about} rpm"), checked))
 }
 
 /// The comparison for people.
@@ -194,7 +191,7 @@ pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &Calibrat
     let what = comparison.reference.quantity();
     let is_rounded = arguments.known_std_ppm.is_none() && comparison.reference.std_share() > 0.0;
     let digit = match is_rounded {
-        true => format!("; the ± of the known {what} is the rounding of its last digit"),
+        true => format!("; the ± of the known {what} is its rounding to the last digit that was given"),
         false => String::new(),
     };
     let plus_minus =
@@ -222,7 +219,7 @@ fn result_in_words(comparison: &Comparison, clock_ppm: f64) -> String {
     format!("result: {}{reason}\n", word(judgement))
 }
 
-fn word(judgement: Judgement) -> &'static str {
+pub(super) fn word(judgement: Judgement) -> &'static str {
     match judgement {
         Judgement::Passes => "pass",
         Judgement::Fails => "fail",
@@ -298,83 +295,6 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
         times(order),
         comparison.band()
     )
-}
-
-/// Decimals of a correction in millionths: to the second digit of its ±, and one at most, which is a hundredth of what the warmth of a room does.
-fn correction_decimals(expanded_ppm: f64) -> usize {
-    usize::from(expanded_ppm < 10.0)
-}
-
-/// "129.4 ± 3.1 ppm".
-fn in_ppm(ppm: f64, std_ppm: f64) -> String {
-    format!("{} ppm", with_uncertainty(ppm, Some(std_ppm)))
-}
-
-fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
-    let (check, what) = (&comparison.check, comparison.reference.quantity());
-    let before_ppm = arguments.hearing.clock_correction_ppm.unwrap_or(0.0);
-    let judgement = check.clock(arguments.clock_ppm);
-    // a direction is told where it is known
-    let off = if check.is_significant() {
-        let direction = if check.correction_ppm > 0.0 { "fast" } else { "slow" };
-        let off = in_ppm(check.correction_ppm.abs(), check.correction_std_ppm);
-        format!("it runs {direction} by {off}")
-    } else {
-        format!("its error is {}", in_ppm(check.correction_ppm, check.correction_std_ppm))
-    };
-    let advice = match judgement {
-        // each of the two alone would leave it open
-        Judgement::Undecided if comparison.least_expanded_ppm() >= arguments.clock_ppm => {
-            format!(
-                ". Neither the known {what} nor the sound is exact enough: measure the {what} more exactly, give its standard uncertainty \
-                 with --known-std-ppm, and make a longer recording"
-            )
-        }
-        Judgement::Undecided if comparison.is_known_the_less_exact() => {
-            format!(
-                ". Most of the ± comes from the known {what}: measure it more exactly, and give its new standard uncertainty with \
-                 --known-std-ppm"
-            )
-        }
-        Judgement::Undecided => ". Most of the ± comes from the sound: make a longer recording".to_owned(),
-        _ => String::new(),
-    };
-    let (verdict, limit_ppm) = (word(judgement), arguments.clock_ppm);
-    let why = if judgement == Judgement::Undecided { ", so this ± is too large to decide" } else { "" };
-    let mut text = format!(
-        "clock: {verdict}, {off} (millionths, k = 2). An error of up to {limit_ppm} ppm passes (--clock-ppm){why}{advice}\n"
-    );
-    let whole_ppm = comparison.whole_correction_ppm(before_ppm);
-    text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
-        format!(
-            "correction of the clock: none, because no clock is off by more than {CLOCK_PERCENT_MAX} %. Check the \
-             known speed, and whether the recording was slowed down\n"
-        )
-    } else if check.is_significant() {
-        let decimals = correction_decimals(check.expanded_ppm());
-        let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
-        let sign = if whole_ppm < 0.0 { "negative: the clock runs slow" } else { "positive: the clock runs fast" };
-        let is_exact = comparison.reference.std_share() == 0.0;
-        let right = match is_exact {
-            true => format!(
-                "if the known {what} is exact; if it is not, give its standard uncertainty with --known-std-ppm"
-            ),
-            false => format!("if the known {what} is right within its ±"),
-        };
-        let unusual = format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known {what} first\n");
-        let unusual = if whole_ppm.abs() > USUAL_PPM_MAX { &unusual } else { "" };
-        format!(
-            "{unusual}correction of the clock: {ppm} ppm ({sign}), {right}. Add --clock-correction-ppm {ppm} to later commands with this recorder, or write \
-             in an experiment file:\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}  # error that may remain; a warmer or colder recorder changes by about {WARMTH_PPM} ppm\n",
-            fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
-        )
-    } else {
-        let kept = (before_ppm != 0.0).then(|| format!("keep --clock-correction-ppm {before_ppm}"));
-        let what = kept.as_deref().unwrap_or("none");
-        format!("correction of the clock: {what}, because the error is smaller than its ±\n")
-    };
-    text
 }
 
 /// One JSON object. `passes` is null where the ± leaves it open.

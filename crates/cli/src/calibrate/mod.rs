@@ -1,5 +1,6 @@
 //! `hovertone calibrate`: the recorder's clock and the order of the tone against one known speed.
 
+mod clock_words;
 mod comparison;
 
 use crate::args::{AnalysisArguments, CalibrateArguments, KnownArguments};

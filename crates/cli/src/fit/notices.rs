@@ -60,7 +60,7 @@ impl FittedRows<'_> {
     fn pole_pairs(&self) -> String {
         match is_electrical(self.speed_column) {
             true => format!(
-                "; the stand calculates column \"{}\" with the number of pole pairs: check it too",
+                "; the stand calculates the column \"{}\" with the number of pole pairs of the motor (half of its magnets): check this number in the settings of the stand",
                 self.speed_column
             ),
             false => String::new(),
@@ -242,7 +242,7 @@ mod tests {
         let [optical, electrical] = ["Motor Optical Speed (RPM)", "Motor Electrical Speed (RPM)"]
             .map(|speed| notice_of(&low, &rows(&[], speed)).hint);
         assert!(!optical.contains("blades") && !optical.contains("gear") && !optical.contains("pole"), "{optical}");
-        assert!(electrical.contains("with the number of pole pairs: check it too"), "{electrical}");
+        assert!(electrical.contains("with the number of pole pairs of the motor"), "{electrical}");
     }
 
     #[test]

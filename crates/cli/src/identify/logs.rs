@@ -45,7 +45,7 @@ impl FlownLog {
         let ElectricalColumn { header, name_with_poles } =
             columns.first().filter(|_| self.flight.speeds_rev_s.is_none())?;
         let hint = format!(
-            "count the magnets in the bell of a motor, and write their number into the headers of the CSV. For 14 magnets, as in most motors, \
+            "count the magnets in the bell of a motor, and write their number into the headers of the CSV. For 14 magnets, as in most small motors, \
              write {name_with_poles} in place of {header}, and so on"
         );
         Some(Notice::new(electrical_in_words(columns)?, hint))

@@ -150,7 +150,7 @@ fn checked_folder(
         folder,
         outputs,
         &FolderContent {
-            name: "of the same experiment (a changed experiment file counts as another one)",
+            name: "of the same experiment (with other flags or another experiment file, it is another one)",
             run: &run,
             files: &files,
         },

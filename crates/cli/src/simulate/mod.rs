@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Res
     let outputs = Outputs::beside(source.inputs(), arguments.replace.force);
     let run = format!("simulate {}", source.sha256);
     let content = FolderContent {
-        name: "of the same scenario (a changed scenario file counts as another one)",
+        name: "of the same scenario (with other flags or another scenario file, it is another one)",
         run: &run,
         files: &[SOUND, TABLE, truth_json::NAME],
     };

@@ -48,7 +48,7 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     let passed = calibrated(&sound, &["--vehicle", "crazyflie", "--clock-correction-ppm", &flag]).ends_with(0);
     assert!(passed.stdout.ends_with("\nresult: pass\n"), "{}", passed.stdout);
     let flag_ppm: f64 = flag.parse().unwrap();
-    let keep = format!("correction of the clock: keep --clock-correction-ppm {flag_ppm}, because");
+    let keep = format!("correction of heard speeds: keep --clock-correction-ppm {flag_ppm}, because");
     assert!(passed.stdout.contains(&keep), "{}", passed.stdout);
     // the correction is a flag of every command that hears, and a setting of an experiment
     let rpm = |words: &[&str]| {
@@ -234,7 +234,7 @@ fn every_pure_tone_calibrates_a_good_clock() {
         // what is within its ± has no direction and no correction
         assert!(
             passed.stdout.contains("clock: pass, its error is ")
-                && passed.stdout.contains("correction of the clock: none"),
+                && passed.stdout.contains("correction of heard speeds: none"),
             "{}",
             passed.stdout
         );

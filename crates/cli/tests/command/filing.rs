@@ -97,7 +97,7 @@ fn a_recording_under_the_wrong_load_is_named() {
         hovertone(&words.collect::<Vec<_>>()).ends_with(0)
     };
     let wrong = with(&[&heavy, "--mass", "462g", &other]);
-    assert!(wrong.stderr.contains("means 12 % more thrust than in the other recordings"), "{}", wrong.stderr);
+    assert!(wrong.stderr.contains("has 12 % more thrust than the other recordings"), "{}", wrong.stderr);
     assert!(
         wrong.stderr.contains("check that each recording is after the right --mass")
             && !wrong.stderr.contains("times the smallest"),

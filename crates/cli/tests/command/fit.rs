@@ -141,7 +141,7 @@ fn bad_tables_are_refused_or_flagged() {
     assert!(outlier["notices"].to_string().contains("line 4 of the file does not fit"), "{outlier}");
     assert!(outlier["notices"].to_string().contains("left out"), "{outlier}");
     let said = hovertone(&["fit", text(&path)]).ends_with(0).stdout;
-    assert!(said.contains("4 table rows, 1 of them left out of the fit, mass_g against rpm"), "{said}");
+    assert!(said.contains("4 table rows, 1 of them left out of the fit: mass_g against rpm"), "{said}");
     let expected = 0.4 * 9.80665 / RotorSpeed::from_rpm(3600.0).rad_s().powi(2);
     let found = number(&outlier, "/thrust_constant_total_n_s2/value");
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
@@ -167,7 +167,7 @@ fn a_row_that_fits_the_preferred_law_is_not_left_out() {
     fs::write(&table, "rad/s,thrust_n\n100,0.31\n200,0.62\n300,1.12\n400,1.83\n500,2.74\n600,3.85\n").unwrap();
     let run = hovertone(&["fit", text(&table)]).ends_with(0);
     assert!(
-        run.stdout.contains("6 table rows, thrust_n") && run.stdout.contains("F = F₀ + C ω² (preferred)"),
+        run.stdout.contains("6 table rows used: thrust_n") && run.stdout.contains("F = F₀ + C ω² (preferred)"),
         "{}",
         run.stdout
     );

@@ -127,7 +127,7 @@ fn counts_agree_with_their_nouns() {
     let table = folder.path().join("a.csv");
     fs::write(&table, "rpm,mass_g,mass_std_g\n3600,413,1\n").unwrap();
     let one_row = hovertone(&["fit", text(&table)]).ends_with(0).stdout;
-    assert!(one_row.contains("\n1 table row, "), "{one_row}");
+    assert!(one_row.contains("\n1 table row used: "), "{one_row}");
     let only = fs::read_to_string(&experiment).unwrap().replace("load0/*.wav", "load0/trial0.wav");
     let (only, _) = only.split_once("[[load]]\nname = \"l1\"").unwrap();
     fs::write(&experiment, only).unwrap();

@@ -99,7 +99,7 @@ fn faults_are_named_with_the_nearest_name() {
         ("[vehicle]\nmas_kg = 0.4\n", ["unknown key \"mas_kg\"", "mass_kg"]),
         ("[[maneuver]]\nkind = \"hoover\"\nduration_s = 1\n", ["unknown value \"hoover\"", "did you mean \"hover\""]),
         ("[vehicle]\npreset = \"crazyfly\"\n", ["crazyfly", "did you mean \"crazyflie\""]),
-        ("[vehicle]\npreset = \"bebop2\"\n", ["bebop2", "has no flight model (the numbers"]),
+        ("[vehicle]\npreset = \"bebop2\"\n", ["bebop2", "has no flight model of the vehicle"]),
         (
             "[vehicle]\nmass_kg = 9.0\n",
             ["mass_kg = 9: the vehicle is too heavy to hover", "give a smaller mass (in kilograms)"],

@@ -36,7 +36,7 @@ fn a_geared_rotor_is_found_by_its_mesh() {
     assert!((number(line, "speed_rev_s") - 57.3).abs() < 0.01, "{}", line["speed_rev_s"]);
     assert_eq!(line["found"]["meaning"], "blade_pass_and_mesh");
     assert!(
-        run.stderr.contains("the number of blades is not given; the sound shows 2 blades, gear 8:69"),
+        run.stderr.contains("the number of blades is not given; hovertone uses 2 blades, gear 8:69"),
         "{}",
         run.stderr
     );
@@ -102,7 +102,7 @@ fn a_sine_is_one_family_with_its_frequency_to_a_hundredth() {
     let words = hovertone(&["tones", text(&path)]).stdout;
     assert!(
         words.contains("single line: 437.31 Hz")
-            && words.contains("if it is the tone of a rotor: 218.7 rev/s (2 blades)"),
+            && words.contains("if it is the tone of a rotor, this rotor turns at 218.7 rev/s (2 blades)"),
         "{words}"
     );
 }

@@ -23,7 +23,7 @@ pub(super) fn lines(rotor: &IdentifiedRotor) -> Vec<String> {
 fn described(rotor: &IdentifiedRotor) -> Vec<String> {
     let units = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2);
     let mut lines = vec![
-        format!("{}: thrust constant of ONE rotor, T = C_f w^2", rotor.vehicle_name),
+        format!("{}: thrust constant of ONE rotor, F = C_f w^2 (F: thrust, w: speed in rad/s)", rotor.vehicle_name),
         rotor.origin.clone(),
         match rotor.expanded_uncertainty_n_s2 {
             Some(expanded) => format!(
@@ -50,7 +50,7 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
     }
     if let (Some(density), Some(diameter_m)) = (rotor.air_density_kg_m3, rotor.propeller_diameter_m) {
         lines.push(format!(
-            "C_T = T/(rho n^2 D^4) = {} with rho = {density:.4} kg/m^3, D = {diameter_m:.4} m; C_f is proportional to \
+            "C_T = F/(rho n^2 D^4) = {} with rho = {density:.4} kg/m^3, D = {diameter_m:.4} m; C_f is proportional to \
             rho",
             number(units.coefficient(density, diameter_m))
         ));

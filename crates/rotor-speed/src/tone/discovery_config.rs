@@ -32,7 +32,7 @@ pub struct DiscoveryConfig {
     pub blade_shares: [f64; 5],
     /// Fastest tip as a share of the speed of sound: propellers of multirotors stay below 0.6.
     pub tip_mach_max: f64,
-    /// Smallest thrust coefficient T/(ρ n² D⁴) of a hovering propeller.
+    /// Smallest thrust coefficient F/(ρ n² D⁴) of a hovering propeller.
     pub thrust_coefficient_min: f64,
     /// Largest. Measured propellers have 0.06 to 0.15.
     pub thrust_coefficient_max: f64,

@@ -12,9 +12,9 @@ const FIGURE_OF_MERIT: std::ops::RangeInclusive<f64> = 0.05..=0.85;
 /// The thrust coefficient C_T of one rotor, in both conventions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThrustCoefficients {
-    /// T / (ρ n² D⁴), n in turns per second.
+    /// F / (ρ n² D⁴), n in turns per second.
     pub propeller: f64,
-    /// T / (ρ A (ω R)²), with the area A of the disc.
+    /// F / (ρ A (ω R)²), with the area A of the disc.
     pub rotorcraft: f64,
     /// Air density ρ that was used.
     pub density_kg_m3: f64,

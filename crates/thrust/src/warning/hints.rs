@@ -12,7 +12,7 @@ impl ThrustWarning {
             Self::LoadDoesNotFit { is_row, mass_that_fits_kg, is_left_out, .. } => {
                 misfit_hint(*is_row, mass_that_fits_kg.is_some(), *is_left_out)
             }
-            Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale and the propellers",
+            Self::LoadsDisagree { are_rows: true, .. } => "check the units, the zero of the scale and the propellers",
             Self::LoadsDisagree { has_added_mass, names, .. } => disagree_hint(*has_added_mass, names.len()),
             Self::HeavierTurnedSlower { .. } => {
                 "do not use this constant: check whether two masses are exchanged, and which recording belongs to which load"
@@ -36,7 +36,7 @@ impl ThrustWarning {
                 "do not use this constant: check the vehicle, its blades and its gear; if they are right, record again with the microphone nearer"
             }
             Self::RowsDoNotFit { .. } => {
-                "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another propeller"
+                "look for a mistake in these rows: a rotor whose speed still changed, a scale that does not show 0 without thrust, another unit or another propeller"
             }
             Self::TrialLeftOut { .. } => {
                 "check this recording with `hovertone speed`: the tone may come from another harmonic or another machine"
@@ -91,7 +91,7 @@ impl ThrustWarning {
 /// What to check where one load or row does not fit the others.
 fn misfit_hint(is_row: bool, has_mass: bool, is_left_out: bool) -> &'static str {
     match (is_row, is_left_out, has_mass) {
-        (true, ..) => "check the unit, the offset of the scale and the propeller of this row",
+        (true, ..) => "check the unit, the zero of the scale and the propeller of such a row",
         (false, true, _) => "check the mass of this load, its unit and recordings",
         (false, false, true) => "weigh that load again, and check that it does not block the air of the rotors",
         (false, false, false) => "check the thrust and the recordings of that load",

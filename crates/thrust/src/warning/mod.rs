@@ -146,7 +146,7 @@ pub enum ThrustWarning {
     ConstantDrifts(Drift),
     /// A thrust coefficient that no propeller has.
     ImplausibleThrustCoefficient {
-        /// T / (ρ n² D⁴).
+        /// F / (ρ n² D⁴).
         propeller: f64,
     },
     /// A figure of merit that no rotor has.
