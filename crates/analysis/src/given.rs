@@ -128,8 +128,7 @@ mod tests {
 
     #[test]
     fn a_given_number_of_rotors_is_not_asked_for() {
-        let apart =
-            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
+        let apart = Warning::RotorsNotApart { resolved: 0, of: 4, in_mean: 4, is_assumed: false, spread_share: 0.006 };
         let hint = |rotors: bool| GivenFacts { rotors, ..GivenFacts::default() }.hints(&[&apart]).remove(0);
         assert!(hint(false).contains(FEWER_ROTORS) && !hint(true).contains("--rotors"), "{}", hint(true));
     }

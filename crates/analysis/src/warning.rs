@@ -82,8 +82,8 @@ pub enum Warning {
         resolved: usize,
         /// Number of rotors.
         of: u32,
-        /// Whether the mean of all rotors is still known.
-        has_mean: bool,
+        /// Number of rotors in the mean, with those that are heard but not separated; 0 where one tone is used for all.
+        in_mean: usize,
         /// Whether their number was not given.
         is_assumed: bool,
         /// Standard deviation of the speeds of the rotors about their mean, as a share, that the ± contains where one tone is used for all.
@@ -176,15 +176,21 @@ impl Warning {
                 "record a longer hover, or choose a longer part with --from and --to"
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
-            Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
+            Self::RotorsNotApart { in_mean: 0, is_assumed: true, .. } => {
                 "if fewer rotors turn, give their number, as in --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer"
             }
-            Self::RotorsNotApart { has_mean: false, .. } => {
+            Self::RotorsNotApart { in_mean: 0, .. } => {
                 "to separate them and get a smaller ±, place the microphone nearer; rotors at nearly equal speeds \
                 cannot be separated"
             }
+            Self::RotorsNotApart { of, in_mean, .. } if *in_mean == *of as usize => {
+                "the speed is the mean of all rotors, also of those that could not be separated, so its ± is larger; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            }
+            Self::RotorsNotApart { resolved, in_mean, .. } if in_mean == resolved => {
+                "the speed is the mean of the separated rotors, so its ± is larger; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all heard rotors, and its ± is larger, because not all could be separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+                "the speed is the mean of the rotors that are heard, so its ± is larger; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
             }
             Self::RotorCountUnknown { .. } => {
                 "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several rotors, place the microphone nearer"
@@ -253,8 +259,8 @@ impl fmt::Display for Warning {
                     if *frame_count == 1 { "frame" } else { "frames" }
                 )
             }
-            Self::RotorsNotApart { resolved, of, has_mean, is_assumed, spread_share } => {
-                f.write_str(&not_apart_text(*resolved, &all_rotors_text(*of, *is_assumed), *has_mean, *spread_share))
+            Self::RotorsNotApart { resolved, of, in_mean, is_assumed, spread_share } => {
+                f.write_str(&not_apart_text(*resolved, &all_rotors_text(*of, *is_assumed), *in_mean > 0, *spread_share))
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
@@ -330,7 +336,13 @@ mod tests {
     use super::*;
 
     fn said(resolved: usize, has_mean: bool, is_assumed: bool) -> String {
-        let warning = Warning::RotorsNotApart { resolved, of: 4, has_mean, is_assumed, spread_share: 0.0058 };
+        let warning = Warning::RotorsNotApart {
+            resolved,
+            of: 4,
+            in_mean: if has_mean { 4 } else { 0 },
+            is_assumed,
+            spread_share: 0.0058,
+        };
         warning.to_string()
     }
 
@@ -380,7 +392,7 @@ mod tests {
     #[test]
     fn an_assumed_spread_is_explained() {
         let one_tone =
-            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: false, is_assumed: false, spread_share: 0.0058 };
+            Warning::RotorsNotApart { resolved: 0, of: 4, in_mean: 0, is_assumed: false, spread_share: 0.0058 };
         let unknown = Warning::RotorCountUnknown { spread_share: 0.0058 };
         for (warning, why, what_to_do) in [
             (&one_tone, "may come from one rotor alone", "get a smaller ±"),

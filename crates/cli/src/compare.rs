@@ -3,6 +3,7 @@
 use crate::args::CompareArguments;
 use crate::export::{ending_of, identified, say_doubts};
 use crate::failure::{Ending, Failure};
+use crate::inputs::name_of;
 use crate::model_file::read_model;
 use crate::terminal::Terminal;
 use hovertone_report::{ComparedModel, models_json, models_text};
@@ -22,5 +23,5 @@ pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Resu
 }
 
 fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
-    Ok(ComparedModel { file: path.display().to_string(), model: read_model(path)? })
+    Ok(ComparedModel { file: name_of(path), model: read_model(path)? })
 }

@@ -14,7 +14,7 @@ use hovertone_exchange::{
     ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
     updated_model,
 };
-use hovertone_report::{Notice, fixed, printable};
+use hovertone_report::{Notice, fixed, printable, significant};
 use hovertone_vehicle::{check_diameter, check_positive, check_range, in_list};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -244,8 +244,9 @@ fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Resul
         return Ok(());
     }
     let what = format!(
-        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is too large: divided by the thrust constant of one rotor, it gives {arm_m:.0} metres, and for every \
-         propeller this ratio is less than {TORQUE_PER_THRUST_M_MAX} metre"
+        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is too large: divided by the thrust constant of one rotor, it gives {} m, and for every \
+         propeller this ratio is less than {TORQUE_PER_THRUST_M_MAX} m",
+        significant(arm_m, 2)
     );
     // the momentConstant of a model is this ratio
     if torque_constant_n_m_s2 <= TORQUE_PER_THRUST_M_MAX {

@@ -37,6 +37,11 @@ pub(crate) fn is_stdin(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
+/// Name of a file or of stdin in the output.
+pub(crate) fn name_of(path: &Path) -> String {
+    if is_stdin(path) { STDIN.to_owned() } else { path.display().to_string() }
+}
+
 /// The bytes of a file or of stdin; `what` names the content in messages.
 pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>, Failure> {
     if !is_stdin(path) {
@@ -198,4 +203,14 @@ fn cannot_keep(error: &io::Error) -> Failure {
         "make room in this folder, or set the variable TMPDIR to another folder",
         &folder,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stdin_has_a_name_and_a_file_of_its_sign_keeps_its_own() {
+        assert_eq!(["-", "./-", "a/b.wav"].map(|typed| name_of(Path::new(typed))), ["stdin", "./-", "a/b.wav"]);
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::failure::{Ending, Failure};
 use crate::files::files_of;
-use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
+use crate::inputs::{is_stdin, name_of, recording_of_stdin};
 use crate::recording::{Job, Requests};
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
@@ -28,13 +28,13 @@ pub(crate) fn jobs_of(
             samples: None,
         };
         if is_stdin(name) {
-            jobs.push(job(STDIN.to_owned(), recording_of_stdin()?));
+            jobs.push(job(name_of(name), recording_of_stdin()?));
             continue;
         }
         let files = files_of(name);
         // a pattern without files stays in the list, so that the output has its failure in the right place
         let files = if files.is_empty() { vec![name.clone()] } else { files };
-        jobs.extend(files.into_iter().map(|path| job(path.display().to_string(), path)));
+        jobs.extend(files.into_iter().map(|path| job(name_of(&path), path)));
     }
     Ok(jobs)
 }

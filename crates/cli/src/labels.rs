@@ -50,13 +50,7 @@ pub(crate) fn resolve(
         let what = format!("{what} ({flag}) belongs to one flight, but {recordings} recordings are given");
         return Err(Failure::usage(what, "give only the recording of the same flight"));
     }
-    if rotors < 2 {
-        let what = format!("to tell by {flag} which rotor is which, hovertone needs the number of rotors, 2 or more");
-        return Err(Failure::usage(
-            what,
-            format!("give the number of rotors, as in --rotors 4; if only one rotor turns, leave {flag} out"),
-        ));
-    }
+    refuse_fewer_than_two(rotors, flag)?;
     let Some(path) = &arguments.log else {
         let typed = arguments.spin_up.as_deref().unwrap_or_default();
         return Ok(Some(LabelPlan::SpinUp(names_of(typed, vehicle, rotors)?)));
@@ -70,6 +64,17 @@ pub(crate) fn resolve(
     let are_axes_said = logged.rates.as_ref().is_some_and(|rates| rates.axes.is_none());
     let logs = logs_of(logged, arguments, vehicle, path)?;
     Ok(Some(LabelPlan::Log { logs, notes, are_axes_said, config }))
+}
+
+/// Refuses a flag that tells which rotor is which, where the number of rotors is not given or is 1.
+pub(crate) fn refuse_fewer_than_two(rotors: u32, flag: &str) -> Result<(), Failure> {
+    if rotors >= 2 {
+        return Ok(());
+    }
+    Err(Failure::usage(
+        format!("to tell by {flag} which rotor is which, hovertone needs the number of rotors, 2 or more"),
+        format!("give the number of rotors, as in --rotors 4; if only one rotor turns, leave {flag} out"),
+    ))
 }
 
 /// The signals of a log in the order of their information: measured speeds, commands, rates of the body.

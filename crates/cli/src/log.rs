@@ -4,7 +4,7 @@ use crate::args::{ColumnName, LogArguments};
 use crate::caller::command_word;
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
-use crate::inputs::{is_stdin, open_stream};
+use crate::inputs::{name_of, open_stream};
 use crate::nearest::nearest;
 use crate::outputs::{Outputs, is_recording, written};
 use crate::terminal::Terminal;
@@ -14,7 +14,7 @@ use hovertone_logs::{
     ColumnNames, ElectricalColumn, LogError, LogSummary, LoggedFlight, Loss, NamedColumn, SignalRow, log_summary,
     signal_rows,
 };
-use hovertone_report::{Notice, log_json, log_text, signal_headers};
+use hovertone_report::{Notice, NoticeKind, counted, log_json, log_text, signal_headers};
 use std::io::BufWriter;
 use std::path::Path;
 
@@ -57,8 +57,7 @@ fn tell(file: &Path, log: &LogSummary, arguments: &LogArguments, terminal: &mut 
         terminal.flush()?;
         terminal.warning(&notice, "");
     }
-    let name = file.display().to_string();
-    let name = if is_stdin(file) { crate::inputs::STDIN } else { &name };
+    let name = &name_of(file);
     if arguments.json {
         terminal.data(&log_json(name, log).map_err(Failure::internal)?)?;
     } else {
@@ -244,7 +243,7 @@ pub(crate) fn notices_of(flight: &LoggedFlight) -> Vec<Notice> {
 
 /// The notice of what a log has lost.
 pub(crate) fn loss_notice(words: &str) -> Notice {
-    Notice::new(words, HINT_OF_LOSS)
+    Notice::new(words, HINT_OF_LOSS).of_kind(NoticeKind::DamagedLog)
 }
 
 fn warn_of_loss(loss: &Loss, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -265,7 +264,7 @@ fn write_signals(
     let begun = Outputs::beside([file], arguments.replace.force).create_text(output, SIGNALS)?;
     let mut writer = csv::Writer::from_writer(BufWriter::new(begun.handle()?));
     let mut has_header = false;
-    let mut row_count = 0_u64;
+    let mut row_count = 0_usize;
     let mut cells: Vec<String> = Vec::new();
     let take = |row: &SignalRow| {
         if !std::mem::replace(&mut has_header, true) {
@@ -293,6 +292,6 @@ fn write_signals(
     }
     begun.keep()?;
     let ending = warn_of_loss(&loss, terminal)?;
-    terminal.say(&format!("{}, {row_count} rows", written(output)));
+    terminal.say(&format!("{}, {}", written(output), counted(row_count, "row")));
     Ok(ending)
 }

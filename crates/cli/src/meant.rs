@@ -1,6 +1,6 @@
 //! Common slips of a command line, and what was meant.
 
-use crate::see_help::{argument_of, is_typed, typed_command};
+use crate::see_help::{argument_of, command_of, is_typed};
 use hovertone_exchange::SimulatorFormat;
 use std::ffi::OsString;
 use std::path::Path;
@@ -49,7 +49,7 @@ pub(crate) fn flag_meant(name: &str, words: &[OsString]) -> Option<String> {
     if name == "-o" || name == "--output" {
         return Some("the results go to stdout: write > and the name of a file behind the command".to_owned());
     }
-    let command = typed_command(words)?;
+    let command = command_of(words)?;
     if ["--figure", "--plot", "--picture"].contains(&name) && ["speed", "tones"].contains(&command.get_name()) {
         return Some("`hovertone spectrogram` draws a recording with the tracks of its rotors".to_owned());
     }

@@ -2,7 +2,7 @@
 
 use crate::args::LabelArguments;
 use crate::failure::Failure;
-use crate::labels::{notice_of, with_known_frame};
+use crate::labels::{notice_of, refuse_fewer_than_two, with_known_frame};
 use crate::progress::{Progress, Share};
 use crate::recording::{Heard, Hearing, Job};
 use crate::toml_file::{NO_RECORDING, TomlFile};
@@ -11,11 +11,9 @@ use hovertone::rotors::{
     microphone_lines_from_source,
 };
 use hovertone::speed::TrackPoint;
-use hovertone_media::{OpenOptions, Recording};
 use hovertone_report::{Notice, NoticeKind};
 use hovertone_vehicle::Vehicle;
 use serde::Deserialize;
-use std::path::Path;
 
 const SEE_EXAMPLE: &str = "docs/formats.md shows an example of a file of microphones";
 
@@ -62,11 +60,7 @@ pub(crate) fn resolve(
 ) -> Result<Option<ArrayPlan>, Failure> {
     let Some(path) = &arguments.microphones else { return Ok(None) };
     let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
-    if rotors < 2 {
-        let what = "to tell by --microphones which rotor is which, hovertone needs the number of rotors, 2 or more";
-        let hint = "give the number of rotors, as in --rotors 4; if only one rotor turns, leave --microphones out";
-        return Err(Failure::usage(what, hint));
-    }
+    refuse_fewer_than_two(rotors, "--microphones")?;
     let file: MicrophonesFile =
         TomlFile::read(path, "file of microphones", NO_RECORDING, SEE_EXAMPLE)?.with_content()?.parse()?;
     let defaults = MicrophonesConfig::default();
@@ -123,8 +117,7 @@ fn places_of(vehicle: &Vehicle) -> Option<Vec<PlacedRotor>> {
 
 /// Refuses a recording whose number of channels is not the number of microphones. A recording that cannot be opened fails later.
 fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Result<(), Failure> {
-    let options = OpenOptions { channel: None, ..hearing.open_options() };
-    let Ok(recording) = Recording::open(&job.path, &options) else { return Ok(()) };
+    let Ok(recording) = job.open(Hearing { channel: None, ..hearing }) else { return Ok(()) };
     let (channels, microphones) = (recording.info().channel_count, array.microphone_count());
     if channels == microphones {
         return Ok(());
@@ -141,12 +134,12 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
 pub(crate) fn label_all(all: &mut [Heard], jobs: &[Job], plan: &ArrayPlan, wants_progress: bool) {
     let progress = Progress::new("comparing the microphones of", all.len(), wants_progress);
     for (heard, job) in all.iter_mut().zip(jobs) {
-        label(heard, &job.path, plan, &mut progress.recording());
+        label(heard, job, plan, &mut progress.recording());
     }
     progress.finish();
 }
 
-fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>) {
+fn label(heard: &mut Heard, job: &Job, plan: &ArrayPlan, share: &mut Share<'_>) {
     let Heard { record, config, .. } = heard;
     let Some(facts) = record.recording.as_ref().filter(|_| record.speed().is_some()) else { return };
     let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
@@ -154,12 +147,11 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
     let end_s = tracks.iter().filter_map(|track| track.last()).map(|point| point.time_s).fold(0.0, f64::max);
     let mut channel_lines: Vec<MicrophoneLines> = Vec::new();
     for channel in 1..=channels {
-        let options =
-            OpenOptions { audio_track: Some(facts.audio_track), channel: Some(channel), ..plan.hearing.open_options() };
+        let hearing = Hearing { audio_track: Some(facts.audio_track), channel: Some(channel), ..plan.hearing };
         let mut on_progress = |progress: hovertone::sound::Progress| {
             share.set(((channel - 1) as f64 + (progress.time_s / end_s).clamp(0.0, 1.0)) / channels as f64);
         };
-        let lines = Recording::open(path, &options).map_err(|error| error.to_string()).and_then(|mut recording| {
+        let lines = job.open(hearing).map_err(|error| error.to_string()).and_then(|mut recording| {
             microphone_lines_from_source(&mut recording, &tracks, &config.tone, &plan.config, &mut on_progress)
                 .map_err(|error| error.to_string())
         });
@@ -176,4 +168,30 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
     let labels = labels_from_microphones(&channel_lines, &plan.array, &plan.config);
     record.notices.extend(notice_of(&labels));
     record.labels = Some(labels);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::Requests;
+    use hovertone::speed::{Config, ToneConfig};
+    use hovertone_media::Samples;
+    use hovertone_vehicle::Order;
+
+    /// The sound is that of the job, which need not be a file on a disk.
+    #[test]
+    fn the_channels_of_a_sound_that_is_no_file_are_counted() {
+        let config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
+        let samples = Some(Samples::new(vec![0.0; 9600].into(), 3, 48_000.0));
+        let (path, name) = ("s3://bucket/hover.wav".into(), "hover.wav".to_owned());
+        let job = Job { path, name, config, discovery: None, requests: Requests::default(), sha256: None, samples };
+        let array = |microphones: usize| {
+            let rotor = |x_m: f64| PlacedRotor { name: format!("{x_m}"), position_m: [x_m, 0.0, 0.0] };
+            MicrophoneArray::new(vec![[1.0, 0.0, 0.0]; microphones], vec![rotor(0.1), rotor(-0.1)]).unwrap()
+        };
+        // where one channel is heard, the recording still has all of them
+        let hearing = Hearing { channel: Some(2), ..Hearing::default() };
+        assert!(check_channels(&job, hearing, &array(3)).is_ok());
+        assert!(matches!(check_channels(&job, hearing, &array(2)), Err(Failure::Usage { .. })));
+    }
 }

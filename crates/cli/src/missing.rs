@@ -1,6 +1,6 @@
 //! What a command needs and was not given, in words.
 
-use crate::see_help::{is_typed, typed_command};
+use crate::see_help::{command_of, is_typed};
 use std::ffi::OsString;
 
 /// An argument of a command, and what to call it.
@@ -102,7 +102,7 @@ pub(crate) fn missing_in_words(words: &[OsString], arguments: &[String]) -> Stri
     if let Some(beside) = missing_beside(words, arguments) {
         return beside;
     }
-    let Some(command) = typed_command(words) else {
+    let Some(command) = command_of(words) else {
         return format!("this is missing: {}", arguments.join(", "));
     };
     let name = command.get_name();

@@ -7,7 +7,7 @@ use crate::meant::{DECIMAL_SIGN, SHARE_SIGN, flag_meant, number_meant, place_mea
 use crate::missing::{argument_of_example, missing_in_words};
 use crate::nearest::nearest;
 use crate::number_advice::no_percent;
-use crate::see_help::{commands_with, example_and_help, is_typed, typed_command};
+use crate::see_help::{command_of, commands_with, example_and_help, is_typed};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
 use hovertone_report::printable;
@@ -207,7 +207,7 @@ impl Misuse {
 
 /// That a flag about the progress of a long analysis changes nothing in a command that shows none.
 fn idle_here(name: &str, words: &[OsString]) -> Option<String> {
-    let command = typed_command(words).filter(|_| name == "--no-progress")?;
+    let command = command_of(words).filter(|_| name == "--no-progress")?;
     Some(format!("{name} changes nothing: `hovertone {}` shows no progress", command.get_name()))
 }
 
@@ -223,7 +223,7 @@ fn place_of_log(name: &str, words: &[OsString]) -> Option<&'static str> {
 
 /// "did you mean --force?", of the flags of the typed command.
 fn nearest_flag(name: &str, words: &[OsString]) -> Option<String> {
-    let command = typed_command(words)?;
+    let command = command_of(words)?;
     let flags: Vec<String> =
         command.get_arguments().filter_map(|flag| Some(format!("--{}", flag.get_long()?))).collect();
     let nearest = only_flag_of_unit(name, &flags)
@@ -291,11 +291,11 @@ mod tests {
             ),
             (
                 "hovertone speed a.wav --blades -1",
-                "--blades -1: must be a whole number from 1 to 20 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades -1: must be a whole number from 1 to 12 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --blades two",
-                "--blades two: must be a whole number from 1 to 20 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--blades two: must be a whole number from 1 to 12 (for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --window-s long",

@@ -4,7 +4,7 @@ use crate::args::{AnalysisArguments, HearingArguments, KnownArguments, MotorArgu
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
-use crate::inputs::{STDIN, is_stdin, open_stream};
+use crate::inputs::{STDIN, is_stdin, name_of, open_stream};
 use crate::jobs::jobs_of;
 use crate::log::{column_names, log_failure, notices_of, without_speeds};
 use crate::of_recording::{flags_of, refuse_of_recording};
@@ -23,7 +23,8 @@ use hovertone_dynamics::{
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
 use hovertone_report::{
-    LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text, printable, significant,
+    BENCH_RUN, LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text, printable,
+    significant,
 };
 use hovertone_vehicle::LOGGED_REV_S_MAX;
 use std::path::Path;
@@ -151,8 +152,7 @@ impl<'a> Plan<'a> {
                 rows.push(MotorRows { time_s: motor.time_s, speed_rev_s: motor.speed_rev_s });
             }
         }
-        let record =
-            MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors, torque: None };
+        let record = MotorRecord { file: name_of(file), source: MotorSource::Sound(sound), motors, torque: None };
         let idle_mass = idle_mass(&self.arguments.known, &self.config.known);
         let notices = idle_mass.into_iter().chain(heard.notices).chain(unused.clone()).collect();
         Ok(Told { record, rows, notices, is_whole: unused.is_none() })
@@ -172,21 +172,19 @@ impl Plan<'_> {
 
     /// That the commands of a log do not belong to this sound; `None` where none are given.
     fn unused_commands(&self, model: Option<&MotorModel>) -> Option<Notice> {
-        let log = printable(&self.arguments.commands.as_ref()?.display().to_string());
+        let log = printable(&name_of(self.arguments.commands.as_ref()?));
         let has_steps = model.is_some_and(|model| !model.steps.is_empty());
         let (why, hint) = match has_steps {
             true => (
                 "they and the heard speeds do not change at the same times",
-                "check that the log and the recording are of the same run",
+                "check that the log and the recording are of the same run".to_owned(),
             ),
             // the text gives the advice below
             false => (
                 "no step of the speed is heard, from one steady value to another",
                 match self.arguments.json {
-                    true => {
-                        "record a bench run in which the command changes in steps, and hold each level for a second or longer"
-                    }
-                    false => "",
+                    true => format!("record {BENCH_RUN}"),
+                    false => String::new(),
                 },
             ),
         };
@@ -214,8 +212,7 @@ fn flags_of_recording() -> Vec<String> {
 }
 
 fn told_by_log(file: &Path, flight: &LoggedFlight) -> Told {
-    let name = if is_stdin(file) { STDIN.to_owned() } else { file.display().to_string() };
-    let record = motors_of_log(&name, flight);
+    let record = motors_of_log(&name_of(file), flight);
     let values_of = |name: &str| {
         let speeds = flight.speeds_rev_s.as_ref()?;
         let (_, values) = speeds.names.iter().zip(&speeds.values).find(|(of, _)| *of == name)?;

@@ -1,6 +1,6 @@
 //! What to do about a number that is out of its range.
 
-use crate::see_help::{argument_of, see_help, typed_command};
+use crate::see_help::{argument_of, command_of, see_help};
 use hovertone_report::significant;
 use std::ffi::OsString;
 
@@ -30,7 +30,7 @@ const SMALL: f64 = 1e-3;
 pub(crate) fn correct_number(name: &str, words: &[OsString]) -> String {
     let name = name.rsplit('.').next().unwrap_or(name).trim_start_matches('-').replace('-', "_");
     let flag = format!("--{}", name.replace('_', "-"));
-    let is_flag = typed_command(words).is_some_and(|command| argument_of(&command, &flag).is_some());
+    let is_flag = command_of(words).is_some_and(|command| argument_of(&command, &flag).is_some());
     let place = if is_flag { flag } else { name.clone() };
     let unit = unit_of(&name).map_or(String::new(), |unit| format!(", {unit}"));
     format!("correct {place}{unit}: {}", see_help(words))
@@ -51,8 +51,12 @@ pub(crate) fn no_percent(flag: &str, percent: &str, words: &[OsString]) -> Strin
         && let Some(value) = number(whole)
     {
         let part = value * percent / 100.0;
-        let part = if part.abs() < SMALL { format!("{part:.2e}") } else { significant(part, 3) };
-        return format!("{percent} % of {whole} is {part}");
+        let shown = |part: f64| if part.abs() < SMALL { format!("{part:.2e}") } else { significant(part, 3) };
+        return format!(
+            "{percent} % of {whole} is {}; the flag takes the standard uncertainty, so if {percent} % is a ± (k = 2), give half of it: {}",
+            shown(part),
+            shown(part / 2.0)
+        );
     }
     match unit_of(&flag.trim_start_matches('-').replace('-', "_")) {
         Some("in millionths") => "give it in millionths (ppm): 1 % is 10000 ppm".to_owned(),

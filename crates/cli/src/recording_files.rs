@@ -1,6 +1,6 @@
 //! Recordings in a folder, known by their endings: what `init` offers, and what a message about a missing file names.
 
-use crate::caller::typed_words;
+use crate::caller::command_word;
 use crate::files::{files_of, home_expanded, is_pattern, missing_folder};
 use crate::inputs::is_stdin;
 use std::collections::BTreeMap;
@@ -69,8 +69,9 @@ pub(crate) fn of_wrong_kind(path: &Path) -> Option<String> {
 fn folder_in_words(folder: &Path) -> String {
     let (inside, below) = (groups_in(folder), groups_below(folder));
     let first = inside.first().or(below.first());
+    let hears_one = WITH_ONE_RECORDING.contains(&command_word().as_str());
     let advice = match first.and_then(|group| Some((group, group.files.first()?))) {
-        Some((group, file)) if group.files.len() > 1 && !hears_one() => {
+        Some((group, file)) if group.files.len() > 1 && !hears_one => {
             format!(
                 "give a recording in the folder, such as {}, or several recordings, such as {}",
                 file.display(),
@@ -84,12 +85,6 @@ fn folder_in_words(folder: &Path) -> String {
         None => "the folder holds no recordings, so give the name of a recording".to_owned(),
     };
     format!("this is a folder, not a recording; {advice}")
-}
-
-/// Whether the typed command hears one recording at a time.
-fn hears_one() -> bool {
-    let words = typed_words();
-    words.get(1).and_then(|word| word.to_str()).is_some_and(|word| WITH_ONE_RECORDING.contains(&word))
 }
 
 /// What to say of a pattern where one recording is needed.

@@ -10,7 +10,7 @@ const EXAMPLES: &str = "Examples:";
 
 /// Names the help of the typed command.
 pub(crate) fn see_help(words: &[OsString]) -> String {
-    match typed_command(words) {
+    match command_of(words) {
         Some(command) => format!("see `hovertone {} --help`", command.get_name()),
         None => "see `hovertone --help`".to_owned(),
     }
@@ -20,7 +20,7 @@ pub(crate) fn see_help(words: &[OsString]) -> String {
 /// command's help.
 pub(crate) fn example_and_help(words: &[OsString], flag: &str) -> String {
     let help = see_help(words);
-    let Some(command) = typed_command(words) else { return help };
+    let Some(command) = command_of(words) else { return help };
     let example = example_of(&command, flag).map(|example| format!("for example `{example}`"));
     let advice = example
         .or_else(|| purpose_of(&command, flag))
@@ -63,7 +63,7 @@ pub(crate) fn is_typed(words: &[OsString], flag: &str) -> bool {
 }
 
 /// The command that is typed, if there is one of that name.
-pub(crate) fn typed_command(words: &[OsString]) -> Option<Command> {
+pub(crate) fn command_of(words: &[OsString]) -> Option<Command> {
     let commands = Arguments::command();
     words.iter().skip(1).filter_map(|word| word.to_str()).find_map(|word| commands.find_subcommand(word)).cloned()
 }

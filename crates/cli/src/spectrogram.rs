@@ -4,7 +4,7 @@ use crate::args::SpectrogramArguments;
 use crate::drawing::drawing_of;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
-use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
+use crate::inputs::{is_stdin, name_of, recording_of_stdin};
 use crate::jobs::ending_of;
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
@@ -30,10 +30,8 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     let hearing = Hearing::of(&arguments.hearing);
     let outputs = Outputs::beside([&arguments.file], arguments.replace.force);
     outputs.check(&arguments.output)?;
-    let (name, path) = match is_stdin(&arguments.file) {
-        true => (STDIN.to_owned(), recording_of_stdin()?),
-        false => (arguments.file.display().to_string(), arguments.file.clone()),
-    };
+    let name = name_of(&arguments.file);
+    let path = if is_stdin(&arguments.file) { recording_of_stdin()? } else { arguments.file.clone() };
     let jobs = [Job { name, path, config, discovery, requests: Requests::default(), sha256: None, samples: None }];
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let mut records = records_of(&jobs, hearing, &progress);

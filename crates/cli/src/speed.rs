@@ -18,7 +18,7 @@ use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_t
 use std::path::PathBuf;
 
 /// What the columns of the table mean.
-const FOOTNOTE: &str = "±: about 95 of 100 true values lie within it; it includes the noise, the clock of the recorder, and what a warning says of the rotors; spread: standard deviation of the speed over time\n";
+const FOOTNOTE: &str = "±: about 95 of 100 true values lie within it; it includes the noise and the clock of the recorder and, where a warning says that rotors could not be separated, the difference between their speeds; spread: standard deviation of the speed over time\n";
 
 const TRACK: TextKind = TextKind { content: "a track", format: TextFormat::Csv, example: "--track track.csv" };
 

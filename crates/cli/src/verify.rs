@@ -3,6 +3,7 @@
 use crate::args::VerifyArguments;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
+use crate::inputs::name_of;
 use crate::jobs::jobs_of;
 use crate::log::{column_names, notices_of, without_speeds};
 use crate::motor::flight_of;
@@ -33,6 +34,10 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     }
     let which_is_right = which_is_right(&config, discovery.as_ref());
     let jobs = jobs_of(std::slice::from_ref(&arguments.recording), &config, discovery, Requests::default())?;
+    if jobs.len() > 1 {
+        let what = format!("the log belongs to one flight, but {} recordings match the name", jobs.len());
+        return Err(Failure::usage(what, "give the recording of this flight"));
+    }
     let log = &arguments.log;
     let Some(flight) = flight_of(log, &names)? else {
         return Err(Failure::failed(
@@ -79,7 +84,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     if let Some(notice) = small_plus_minus(&verification).filter(|_| arguments.json) {
         terminal.warning(&notice, "");
     }
-    let told = VerificationRecord { file: record.file.clone(), log: log.display().to_string(), verification };
+    let told = VerificationRecord { file: record.file.clone(), log: name_of(log), verification };
     if arguments.json {
         terminal.data(&verification_json(&told).map_err(Failure::internal)?)?;
     } else {

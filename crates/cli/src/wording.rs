@@ -1,6 +1,6 @@
 //! Advice in the words of a command that has no flag for what the advice asks.
 
-use hovertone_report::{ONE_BAND_FOR_ALL, Wording};
+use hovertone_report::{LEAVE_MEAN_ONLY_OUT, LEAVE_METHOD_OUT, ONE_BAND_FOR_ALL, Wording};
 
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
 pub(crate) const IN_PLACE_OF_FILE: Wording =
@@ -31,15 +31,21 @@ pub(crate) const IN_HOVER: Wording = Wording {
     is_flight: true,
     ..Wording::of_phrases(&[
         ("the speed is the mean of", "the mass comes from the mean speed of"),
+        (LEAVE_MEAN_ONLY_OUT, HEARD_AS_CONSTANT),
+        (LEAVE_METHOD_OUT, HEARD_AS_CONSTANT),
         OTHER_ROTORS_IN_FLIGHT,
     ])
 };
 
+/// `weigh` hears by the method of the constant, and has no flag for another one.
+const HEARD_AS_CONSTANT: &str = "you need to do nothing: the speeds behind the constant were heard in the same way";
+
 /// Behind `verify`, which compares the speeds of each moment, without the speed of the recording: its table names what is compared.
-pub(crate) const IN_VERIFY: Wording = Wording::of_phrases(&[(
-    "the speed is the mean of all heard rotors, and its ± is larger, because not all could be separated; ",
-    "",
-)]);
+pub(crate) const IN_VERIFY: Wording = Wording::of_phrases(&[
+    ("the speed is the mean of all rotors, also of those that could not be separated, so its ± is larger; ", ""),
+    ("the speed is the mean of the separated rotors, so its ± is larger; ", ""),
+    ("the speed is the mean of the rotors that are heard, so its ± is larger; ", ""),
+]);
 
 #[cfg(test)]
 mod tests {
@@ -51,8 +57,7 @@ mod tests {
     /// Each advice about a recording that names a flag.
     fn advice() -> Vec<String> {
         let other = OtherRotor { blades: 3, speed_rev_s: 80.0 };
-        let apart =
-            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
+        let apart = Warning::RotorsNotApart { resolved: 0, of: 4, in_mean: 4, is_assumed: false, spread_share: 0.006 };
         let warnings = [
             Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5, band_hz_low: 140.0, band_hz_high: 165.0 },
             Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() },
@@ -110,25 +115,25 @@ mod tests {
     /// A reader of `demo` wrote no experiment file and cannot move a microphone: the advice says first that the constant is right.
     #[test]
     fn in_an_experiment_the_constant_comes_first() {
-        let apart = |has_mean: bool| Warning::RotorsNotApart {
+        let apart = |in_mean: usize| Warning::RotorsNotApart {
             resolved: 0,
             of: 4,
-            has_mean,
+            in_mean,
             is_assumed: false,
             spread_share: 0.006,
         };
-        for (has_mean, begins) in [
+        for (in_mean, begins) in [
             (
-                true,
-                "C_f uses the mean speed of all heard rotors, and its ± is larger, because not all could be separated; ",
+                4,
+                "C_f uses the mean speed of all rotors, also of those that could not be separated, so its ± is larger; ",
             ),
-            (false, "the ± of C_f includes this uncertainty; "),
+            (0, "the ± of C_f includes this uncertainty; "),
         ] {
-            let worded = Wording::IN_EXPERIMENT.of(apart(has_mean).hint());
+            let worded = Wording::IN_EXPERIMENT.of(apart(in_mean).hint());
             assert!(worded.starts_with(begins), "{worded}");
         }
-        assert!(!Wording::IN_FLIGHT.of(apart(true).hint()).contains("on a bench"));
-        let in_file = Wording::IN_EXPERIMENT.of(apart(true).hint());
+        assert!(!Wording::IN_FLIGHT.of(apart(4).hint()).contains("on a bench"));
+        let in_file = Wording::IN_EXPERIMENT.of(apart(4).hint());
         assert!(
             in_file.contains("on a bench, write rotors_running = N under the [[load]] of this recording"),
             "{in_file}"
@@ -138,9 +143,8 @@ mod tests {
     /// `verify` names in its table what it compares: the mean of all rotors, or each separated rotor.
     #[test]
     fn a_comparison_has_no_advice_about_the_speed_of_the_recording() {
-        for resolved in [0, 3] {
-            let apart =
-                Warning::RotorsNotApart { resolved, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
+        for (resolved, in_mean) in [(0, 4), (0, 3), (3, 3), (3, 4)] {
+            let apart = Warning::RotorsNotApart { resolved, of: 4, in_mean, is_assumed: false, spread_share: 0.006 };
             let worded = IN_VERIFY.of(apart.hint());
             assert!(worded.starts_with("if fewer rotors turn, ") && !worded.contains("mean"), "{worded}");
         }
@@ -149,8 +153,7 @@ mod tests {
     /// A known vehicle in a hover has its number of rotors: `--rotors` with another number is refused.
     #[test]
     fn no_other_number_of_rotors_is_asked_for_in_a_hover() {
-        let apart =
-            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
+        let apart = Warning::RotorsNotApart { resolved: 0, of: 4, in_mean: 4, is_assumed: false, spread_share: 0.006 };
         for warning in [apart, Warning::OtherRotorsHeard { expected: 4 }] {
             for wording in [IN_PLACE_OF_FILE, IN_HOVER] {
                 let worded = wording.of(warning.hint());
@@ -158,6 +161,15 @@ mod tests {
             }
             let in_file = Wording::IN_EXPERIMENT.of(warning.hint());
             assert!(!in_file.contains("rotors = N"), "{in_file}");
+        }
+    }
+
+    /// The method is that of the constant.
+    #[test]
+    fn weigh_names_no_flag_of_a_method() {
+        for advice in [LEAVE_MEAN_ONLY_OUT, LEAVE_METHOD_OUT] {
+            assert_eq!(unknown_flags(advice, "speed"), Vec::<String>::new(), "{advice}");
+            assert_eq!(IN_HOVER.of(advice), HEARD_AS_CONSTANT);
         }
     }
 

@@ -248,7 +248,7 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
         recordings_sha256: recordings_sha256(&results),
         clock_correction_ppm: number_at("/settings/experiment/clock_correction_ppm").unwrap_or(0.0),
         origin: format!(
-            "{}computed by hovertone {} from {file} (SHA-256 {}){}",
+            "{}computed by hovertone {} from {file} (its checksum, SHA-256, starts with {}){}",
             if forbids_use { "DO NOT USE THIS CONSTANT, its warnings say why: " } else { "" },
             text("/version").unwrap_or("?"),
             sha256.chars().take(12).collect::<String>(),

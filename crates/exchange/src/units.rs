@@ -20,11 +20,6 @@ impl ConstantUnits {
         Self { n_s2: n_rpm2 * (60.0 / TAU).powi(2) }
     }
 
-    /// From gram-force/rpm².
-    pub fn from_g_rpm2(g_rpm2: f64) -> Self {
-        Self::from_n_rpm2(g_rpm2 * 1e-3 * GRAVITY_STANDARD_M_S2)
-    }
-
     /// From F/(ρ n² D⁴).
     pub fn from_coefficient(propeller: f64, density_kg_m3: f64, diameter_m: f64) -> Self {
         Self { n_s2: propeller * density_kg_m3 * diameter_m.powi(4) / TAU.powi(2) }
@@ -75,11 +70,12 @@ mod tests {
         let constant = ConstantUnits::from_n_s2(7.0775e-6);
         for back in [
             ConstantUnits::from_n_rpm2(constant.n_rpm2()),
-            ConstantUnits::from_g_rpm2(constant.g_rpm2()),
             ConstantUnits::from_coefficient(constant.coefficient(1.1, 0.2), 1.1, 0.2),
         ] {
             assert!((back.n_s2() / constant.n_s2() - 1.0).abs() < 1e-14);
         }
         assert!((constant.n_rev_s2() / constant.n_rpm2() - 3600.0).abs() < 1e-9);
+        // 1 N is 101.9716 gram-force
+        assert!((constant.g_rpm2() / constant.n_rpm2() - 101.9716).abs() < 1e-4);
     }
 }

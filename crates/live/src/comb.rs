@@ -1,5 +1,7 @@
 //! Power spectrum → how well each shaft speed explains it: the heights of its lines over the floor.
 
+use hovertone_signal::RECORDED_RATE_SHARE;
+use hovertone_vehicle::BLADES_MAX;
 use std::f64::consts::LN_2;
 
 /// Width of the parts of a spectrum whose median is the floor: wide against lines. *Decision.*
@@ -10,10 +12,6 @@ const BLADE_PASS_HZ_MAX: f64 = 4000.0;
 const LINES_MAX: u32 = 20;
 /// Lines of a gear mesh. *Decision.*
 const MESH_LINES: f64 = 3.0;
-/// Highest order of a tone that is a blade pass. *Physics.*
-const BLADES_MAX: f64 = 20.0;
-/// Highest line as a share of the sample rate: filters of recorders end below one half. *Physics.*
-const RATE_SHARE_MAX: f64 = 0.45;
 
 /// The lines of a rotor.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +27,7 @@ impl Lines {
     pub(crate) fn new(order: f64, fastest_rev_s: f64, sample_rate_hz: f64) -> Self {
         let tone_hz = order * fastest_rev_s;
         let hz_max = if order <= BLADES_MAX { BLADE_PASS_HZ_MAX } else { MESH_LINES * tone_hz };
-        let count = (hz_max.min(RATE_SHARE_MAX * sample_rate_hz) / tone_hz) as u32;
+        let count = (hz_max.min(RECORDED_RATE_SHARE * sample_rate_hz) / tone_hz) as u32;
         Self { order, count: count.clamp(1, LINES_MAX) }
     }
 
@@ -119,5 +117,7 @@ mod tests {
         // a gear has three lines, a high tone those that the recording holds
         assert_eq!(Lines::new(69.0, 60.0, 48_000.0).count, 3);
         assert_eq!(Lines::new(69.0, 60.0, 16_000.0).count, 1);
+        // no propeller has more than 12 blades
+        assert_eq!([12.0, 13.0].map(|order| Lines::new(order, 60.0, 48_000.0).count), [5, 3]);
     }
 }

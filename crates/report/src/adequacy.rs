@@ -237,14 +237,14 @@ fn cross_check(bootstrap: Option<TrialBootstrap>, budget: &UncertaintyBudget, co
     let percent = |std_n_s2: f64| significant(100.0 * std_n_s2 / constant_n_s2, 2);
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "check: hovertone repeated the fit {} times, each time with a random choice of the recordings (bootstrap). C_f of these fits \
-            scatters by {} % (standard deviation, from the speeds alone). In the budget, the two rows \"speed\" together make {} %{}\n",
+            "check (bootstrap): hovertone repeated the fit {} times, each time with recordings chosen at random. C_f of these fits scatters by \
+            {} % (standard deviation, from the speeds alone). The two rows \"speed\" of the budget give {} % (root of the sum of their squares). {}\n",
             drawn.draws,
             percent(drawn.std_uncertainty_n_s2),
             percent(by_budget),
             match by_budget / drawn.std_uncertainty_n_s2 {
-                CHECKED_LOW..=CHECKED_HIGH => ", which agrees: with few recordings, one is often twice the other",
-                _ => ". The two differ by more than usual: use the larger one, or record more flights",
+                CHECKED_LOW..=CHECKED_HIGH => "The two numbers agree: with few recordings, even a factor of 2 between them is usual",
+                _ => "The two numbers differ by more than usual: record more flights",
             },
         )
     })

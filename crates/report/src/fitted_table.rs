@@ -112,8 +112,7 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
         quoted(constant),
     );
     if constant.std_uncertainty.is_some() {
-        text +=
-            "this ± does not include calibration errors of the scale and the tachometer, because all rows share them\n";
+        text += "this ± does not include calibration errors of the scale and the tachometer: they are the same in all rows, so the scatter does not show them\n";
     }
     if let Some(both) = table.thrust_coefficients {
         text += &coefficients_text(both);

@@ -1,7 +1,7 @@
 //! The logs of an experiment as tables: order check, heard rotors, motors.
 
 use crate::flight_log::FlightLogRecord;
-use crate::motor::in_ms;
+use crate::motor::{in_ms, rows_too_far_apart};
 use crate::motor_record::MotorRecord;
 use crate::number::{DASH, fixed, signed, significant, with_uncertainty};
 use crate::results::InputRecord;
@@ -151,12 +151,10 @@ fn motors_table(logged: &[Logged<'_>]) -> TextTable {
 }
 
 /// Why a log tells no time constant.
-fn no_time_constant(record: &MotorRecord) -> Option<&'static str> {
+fn no_time_constant(record: &MotorRecord) -> Option<String> {
     let first = record.motors.first().filter(|_| !record.has_time_constant())?;
     Some(match first.model.is_too_slow {
-        true => {
-            "the log has too few rows: a motor reaches its speed within 300 ms, and 3 rows or more must lie in this time"
-        }
-        false => "no step of the speed from one steady value to another could be used",
+        true => rows_too_far_apart(),
+        false => "no step of the speed from one steady value to another could be used".to_owned(),
     })
 }

@@ -1,6 +1,7 @@
 //! The grey box as a JSON line, for programs.
 
-use crate::grey_box::{GreyBoxRecord, grey_box_warnings, trust};
+use crate::grey_box::{GreyBoxRecord, trust};
+use crate::notice::Notice;
 use crate::version::VERSION;
 use hovertone_dynamics::{Correlation, Parameter, TorqueConstant};
 use hovertone_vehicle::{Axis, Estimate};
@@ -25,7 +26,8 @@ struct GreyBoxLine<'a> {
     advice: Vec<AdviceLine<'a>>,
     rms_share: Option<f64>,
     check: Option<CheckLine<'a>>,
-    warnings: Vec<String>,
+    trust: String,
+    warnings: &'a [Notice],
     version: &'static str,
 }
 
@@ -66,11 +68,12 @@ struct CheckLine<'a> {
     compared_share: Option<f64>,
 }
 
-/// The grey box as one line of JSON. Gains are in rad/s of the rotor, and in volts by the vehicle's motor.
+/// The grey box as one line of JSON, ending with a line feed. Gains are in rad/s of the rotor, and in volts by the vehicle's motor. `warnings` are
+/// all notices about the flights: those of [`crate::grey_box_warnings`], lost parts of the logs, and loops that are left out.
 ///
 /// # Errors
 /// A number that JSON cannot hold.
-pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
+pub fn grey_box_json(record: &GreyBoxRecord, warnings: &[Notice]) -> serde_json::Result<String> {
     let fit = &record.fit;
     let parameters = Parameter::all().into_iter().zip(fit.model.to_vector());
     let volts = |parameter| Some(fit.estimate(parameter)?.scaled(record.slope_v_s_rad));
@@ -79,7 +82,6 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
         second: pair.second.name(),
         correlation: pair.correlation,
     };
-    let warnings = grey_box_warnings(record).into_iter().map(|notice| notice.to_string());
     let line = GreyBoxLine {
         recording: record.recording.as_deref(),
         log: &record.log,
@@ -120,8 +122,9 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
             change_share: other.result.map(|result| result.change_share),
             compared_share: other.result.map(|result| result.compared_share),
         }),
-        warnings: std::iter::once(trust(record)).chain(warnings).collect(),
+        trust: trust(record),
+        warnings,
         version: VERSION,
     };
-    serde_json::to_string(&line)
+    Ok(serde_json::to_string(&line)? + "\n")
 }

@@ -1,25 +1,30 @@
 //! Results as tables, CSV and JSON. Pure functions from results to text; the caller decides where the text goes.
 //!
 //! ```text
-//! number       digits that follow the uncertainty          text_table    tables for people
-//! notice       a warning with its hint                     cuts          the cuts of a recording on one line
-//! recording    the record of one recording                 speed         its table row, its JSON, its track
-//! thrust       tables like those of the paper              results       results.json and its schema
-//! quote        the constant and the verdict to quote       table_lines   a table, folded to the terminal
-//! printable    names without control characters             folded_warnings  warnings of recordings, folded
-//! comparison   a simulation beside paper and truth         vehicles      the presets and their sources
-//! adequacy     agreement, laws, uncertainty budget         samples       samples and loads as data tables
-//! fitted_table the fit of a thrust stand's table           flight_plan   flying for a wanted uncertainty
-//! models       simulators' models beside the result        weighed       a weighed hover
-//! condition    shaft lines of the rotors                   flight        summary of a simulated flight
-//! typeset      tables for documents: Markdown, LaTeX       data_table    tables for programs: CSV, Parquet
-//! tones        tone families and their readings            csv_text      text of a CSV writer
-//! decision     why this shaft speed, and which was second  units         the constant in units of programs
-//! names        short names of recordings                logged        what a log holds
-//! motor        constants of motors, from steps in a log   motor_json    the same for programs
-//! grey_box     the low-level model of eqs 1 and 2         flight_log    the log of a recording's flight
-//! flight_log_tables  the same as tables                wording     advice in the words of a command
-//! missing_speed  why a recording has no speed        tone_line     the line of a tone family
+//! number        digits that follow the uncertainty          notice              a warning with its hint
+//! text_table    tables for people                           table_lines         a table, folded to the terminal
+//! data_table    tables for programs: CSV, Parquet           typeset             tables for documents: Markdown, LaTeX
+//! csv_text      text of a CSV writer                        printable           names without control characters
+//! names         short names of recordings                   wording             advice in the words of a command
+//! version       version of the program                      folded_warnings     warnings of recordings, folded
+//! recording     the record of one recording                 speed               its table row and its JSON
+//! track         its speed over time                         cuts                its cuts on one line
+//! given         the facts given before it was heard         missing_speed       why it has no speed
+//! decision      why this shaft speed, and the second one    condition           shaft lines of the rotors
+//! tones         tone families and their readings            tone_line           the line of a tone family
+//! thrust        tables like those of the paper              results             results.json and its schema
+//! quote         the constant and the verdict to quote       units               the constant in units of programs
+//! adequacy      agreement, laws, uncertainty budget         samples             samples and loads as data tables
+//! experiment_key  keys of experiment files, and their flags  planned_experiment  what identify would do
+//! fitted_table  the fit of a thrust stand's table           flight_plan         flying for a wanted uncertainty
+//! models        simulators' models beside the result        weighed             a weighed hover
+//! vehicles      the vehicles and their sources              comparison          a simulation beside paper and truth
+//! flight        summary of a simulated flight               logged              what a log holds
+//! verification  sound against telemetry                     flight_log          the log of a recording's flight
+//! flight_log_tables  the same as tables                     motor_record        the motors of a log or a recording
+//! motor         their constants, from steps                 motor_map           their speed at each command
+//! motor_json    both for programs                           grey_box            the low-level model of eqs 1 and 2
+//! grey_box_json the same for programs                       other_hover         a flight at another hover speed
 //! ```
 
 mod adequacy;
@@ -94,7 +99,7 @@ pub use grey_box::{
 pub use grey_box_json::grey_box_json;
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
-pub use motor::motor_text;
+pub use motor::{BENCH_RUN, motor_text};
 pub use motor_json::motor_json;
 pub use motor_record::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
 pub use names::short_names;
@@ -119,4 +124,4 @@ pub use vehicles::{vehicles_json, vehicles_text};
 pub use verification::{VerificationRecord, small_plus_minus, verification_json, verification_text};
 pub use version::VERSION;
 pub use weighed::{weighed_json, weighed_text};
-pub use wording::{ONE_BAND_FOR_ALL, Wording};
+pub use wording::{LEAVE_MEAN_ONLY_OUT, LEAVE_METHOD_OUT, ONE_BAND_FOR_ALL, Wording};

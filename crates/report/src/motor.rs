@@ -8,7 +8,8 @@ use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::{
-    BenchTorque, CombinedEstimate, LOAD_STEPS_MIN, LoadTerm, MotorConstants, MotorStep, StepVerdict, constants_of,
+    BenchTorque, CombinedEstimate, LOAD_STEPS_MIN, LoadTerm, MotorConfig, MotorConstants, MotorStep, StepVerdict,
+    constants_of,
 };
 use hovertone_vehicle::{Estimate, flight_preset_names, in_list};
 use std::f64::consts::TAU;
@@ -16,6 +17,9 @@ use std::f64::consts::TAU;
 /// Digits of a speed and of a command.
 const DIGITS: usize = 4;
 const MS_PER_S: f64 = 1e3;
+/// What to record or to log where no step is found.
+pub const BENCH_RUN: &str =
+    "a bench run in which the command changes in steps, and hold each level for a second or longer";
 
 /// The motors of a log or a recording as text.
 pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
@@ -25,7 +29,10 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
-        text += "the rows of this log are more than 100 ms apart: this is too far for a time constant; log the speeds every 20 ms or faster\n";
+        text += &format!(
+            "{}: this is too far for a time constant; log the speeds every 20 ms or faster\n",
+            rows_too_far_apart()
+        );
     } else if !has_steps {
         text += &no_step_in_words(&record.source);
     }
@@ -51,6 +58,12 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     text += &maps_text(record, width);
     text += &record.torque.as_ref().map_or(String::new(), torque_text);
     text + &simulator_lines(&record.constants())
+}
+
+/// That the rows of a log are too far apart for a time constant, by the default setting.
+pub(crate) fn rows_too_far_apart() -> String {
+    let interval_ms = significant(MotorConfig::default().interval_s_max * MS_PER_S, 3);
+    format!("the rows of this log are more than {interval_ms} ms apart")
 }
 
 fn nothing_in_words(source: &MotorSource) -> String {
@@ -172,15 +185,16 @@ fn verdict_in_words(verdict: StepVerdict, source: &MotorSource) -> &'static str 
 
 /// That no step is found, and what to do. With a wrong number of blades, the tone that is followed may be another one.
 fn no_step_in_words(source: &MotorSource) -> String {
-    let held = "a bench run in which the command changes in steps, and hold each level for a second or longer";
     match source {
-        MotorSource::Log => format!("no step: the speed never changes from one steady value to another; log {held}\n"),
+        MotorSource::Log => {
+            format!("no step: the speed never changes from one steady value to another; log {BENCH_RUN}\n")
+        }
         MotorSource::Sound(sound) => match sound.given_number() {
             Some(number) => format!(
-                "no step is heard: check {number}, because with a wrong number hovertone may follow another tone; if it is right, record {held}\n"
+                "no step is heard: check {number}, because with a wrong number hovertone may follow another tone; if it is right, record {BENCH_RUN}\n"
             ),
             None => format!(
-                "no step is heard: the followed tone never changes from one steady value to another; record {held}\n"
+                "no step is heard: the followed tone never changes from one steady value to another; record {BENCH_RUN}\n"
             ),
         },
     }

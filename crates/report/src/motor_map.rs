@@ -1,11 +1,11 @@
 //! The static maps of motors, in words the steady speed at each command: the gains, and the steady speeds behind them.
 
 use crate::motor_record::{LoggedMotor, MotorRecord, MotorSound, MotorSource};
-use crate::number::{DASH, expanded, significant, with_uncertainty};
+use crate::number::{DASH, may_be_zero, significant, with_uncertainty};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::MapOrigin;
-use hovertone_vehicle::{Estimate, in_list};
+use hovertone_vehicle::in_list;
 
 /// Digits of a command and of a speed.
 const DIGITS: usize = 4;
@@ -38,7 +38,7 @@ pub(crate) fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     if offsets().any(|offset_rev_s| offset_rev_s >= 0.0) {
         text += "speed at command 0: where the fitted straight line reaches command 0; the real motor may stand still there\n";
     }
-    if maps().filter_map(|map| map.gain_rev_s).any(is_nothing) {
+    if maps().filter_map(|map| map.gain_rev_s).any(may_be_zero) {
         text += "a gain whose ± is larger than the gain shows nothing: the commands differ too little\n";
     }
     if maps().any(|map| !map.points.is_empty()) {
@@ -70,11 +70,6 @@ fn rows_in_words(record: &MotorRecord) -> Option<String> {
         "{who} at two different commands for long enough, so {gains} from all log rows. There the speed lags behind the command, so the true gain is \
         larger, perhaps by more than the ±. For a better gain, hold at least two commands for a second each\n"
     ))
-}
-
-/// Whether an estimate may be zero: its ± (k = 2) is larger than its value.
-fn is_nothing(estimate: Estimate) -> bool {
-    expanded(estimate.std_uncertainty).is_some_and(|expanded| expanded > estimate.value.abs())
 }
 
 fn gains_table(record: &MotorRecord) -> TextTable {

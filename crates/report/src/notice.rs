@@ -32,6 +32,8 @@ pub enum NoticeKind {
     CannotHover,
     /// No rotor has a name, although names were asked for.
     NoNames,
+    /// A part of the log of the flight is lost.
+    DamagedLog,
     /// The ± of the speed is large, and the answer is the same.
     LargeUncertainty,
 }
@@ -55,7 +57,7 @@ impl NoticeKind {
 
     /// Whether the answer is not complete with such a notice.
     pub(crate) fn is_incomplete(self) -> bool {
-        self.forbids_use() || self == Self::NoNames
+        self.forbids_use() || matches!(self, Self::NoNames | Self::DamagedLog)
     }
 }
 
@@ -95,5 +97,17 @@ impl fmt::Display for Notice {
 impl Serialize for Notice {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is read of a damaged log may be used, but a part is missing.
+    #[test]
+    fn a_damaged_log_leaves_an_answer_incomplete() {
+        assert!(NoticeKind::DamagedLog.is_incomplete() && !NoticeKind::DamagedLog.forbids_use());
+        assert!(!NoticeKind::Other.is_incomplete() && !NoticeKind::LargeUncertainty.is_incomplete());
     }
 }

@@ -2,6 +2,7 @@
 //! expanded uncertainty, k = 2, everywhere.
 
 use hovertone_thrust::COVERAGE_FACTOR;
+use hovertone_vehicle::Estimate;
 
 /// Digits of a value with unknown uncertainty.
 const DIGITS_WITHOUT_UNCERTAINTY: usize = 6;
@@ -49,6 +50,11 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// k times a standard uncertainty.
 pub(crate) fn expanded(std_uncertainty: Option<f64>) -> Option<f64> {
     std_uncertainty.map(|std| COVERAGE_FACTOR * std)
+}
+
+/// Whether an estimate may be zero: its ± is larger than its value.
+pub(crate) fn may_be_zero(estimate: Estimate) -> bool {
+    expanded(estimate.std_uncertainty).is_some_and(|expanded| expanded > estimate.value.abs())
 }
 
 /// A value, rounded to the second digit of an uncertainty.
@@ -137,6 +143,7 @@ impl PowerOfTen {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hovertone_vehicle::Ending;
 
     #[test]
     fn digits_follow_the_uncertainty() {
@@ -155,6 +162,13 @@ mod tests {
         assert_eq!((significant(-1.26e15, 2), significant(9.96e11, 2)), ("−1.3e15".to_owned(), "1.0e12".to_owned()));
         assert_eq!((spread(None), spread(Some(0.0996))), (DASH.to_owned(), "0.10".to_owned()));
         assert_eq!(plus_minus(Some(0.0498)), "0.10");
+    }
+
+    #[test]
+    fn an_estimate_may_be_zero_where_its_plus_minus_reaches_zero() {
+        let estimate = |value, std_uncertainty| Estimate { value, std_uncertainty, ending: Ending::Solved };
+        assert!(may_be_zero(estimate(-0.19, Some(0.1))) && !may_be_zero(estimate(0.21, Some(0.1))));
+        assert!(!may_be_zero(estimate(0.0, None)));
     }
 
     #[test]

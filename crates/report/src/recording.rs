@@ -244,7 +244,7 @@ impl SpeedRecord {
     }
 
     /// Whether a part of the requested result is missing or doubtful: no rotor tone, an unsettled order, a sound that contradicts the given
-    /// rotors or that no multirotor can make, missing labels, or only the beginning of the sound.
+    /// rotors or that no multirotor can make, missing labels, a damaged log, or only the beginning of the sound.
     pub fn is_incomplete(&self) -> bool {
         let has_labels = self.labels.as_ref().is_none_or(|labels| labels.not_told.is_none());
         self.speed().is_none()

@@ -2,6 +2,7 @@
 
 use crate::flight_log::{FlightLogLine, FlightLogRecord};
 use crate::notice::Notice;
+use crate::number::expanded;
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::version::VERSION;
 use hovertone_analysis::{Hover, Method, RotorsHeard, RotorsHeardCounts, Verification, Warning};
@@ -176,9 +177,9 @@ struct Settings<'a> {
     experiment: &'a Value,
 }
 
-/// The ± of a constant: k times its standard uncertainty.
-fn expanded(constant: Option<Estimate>) -> Option<f64> {
-    constant?.std_uncertainty.map(|std| COVERAGE_FACTOR * std)
+/// The ± of a constant.
+fn expanded_of(constant: Option<Estimate>) -> Option<f64> {
+    expanded(constant?.std_uncertainty)
 }
 
 fn by_method<S: Serializer>(tables: &&[ThrustTable], serializer: S) -> Result<S::Ok, S::Error> {
@@ -188,8 +189,8 @@ fn by_method<S: Serializer>(tables: &&[ThrustTable], serializer: S) -> Result<S:
             thrust_constant_per_rotor_n_s2: table.thrust_constant_per_rotor_n_s2,
             plain_mean_total_n_s2: table.plain_mean_total_n_s2,
             measured_std_total_n_s2: table.measured_std_total_n_s2,
-            expanded_uncertainty_total_n_s2: expanded(table.thrust_constant_total_n_s2),
-            expanded_uncertainty_per_rotor_n_s2: expanded(table.thrust_constant_per_rotor_n_s2),
+            expanded_uncertainty_total_n_s2: expanded_of(table.thrust_constant_total_n_s2),
+            expanded_uncertainty_per_rotor_n_s2: expanded_of(table.thrust_constant_per_rotor_n_s2),
             rotors_heard: table.rotors_heard,
             loads: loads_of(table),
         };
@@ -236,8 +237,8 @@ pub fn results_json(identification: &Identification<'_>) -> Result<String, serde
         thrust_constant_total_n_s2: total,
         thrust_constant_per_rotor_n_s2: per_rotor,
         coverage_factor: COVERAGE_FACTOR,
-        expanded_uncertainty_total_n_s2: expanded(total),
-        expanded_uncertainty_per_rotor_n_s2: expanded(per_rotor),
+        expanded_uncertainty_total_n_s2: expanded_of(total),
+        expanded_uncertainty_per_rotor_n_s2: expanded_of(per_rotor),
         measured_std_total_n_s2: reported.and_then(|table| table.measured_std_total_n_s2),
         method,
         rotors_heard: reported.map(|table| table.rotors_heard),

@@ -56,7 +56,7 @@ pub(crate) fn kind_and_place(kind: &str, family: &ToneFamily, whole: Whole) -> S
         _ => {
             let is_moving = family.spread_hz.is_some_and(|spread_hz| spread_hz > MOVING_SHARE * family.fundamental_hz);
             let about = if is_moving { "about " } else { "" };
-            format!("lines at {} times {about}{fundamental} Hz", numbers_in_words(&family.harmonics))
+            format!("harmonics {} of {about}{fundamental} Hz", numbers_in_words(&family.harmonics))
         }
     };
     let level =

@@ -223,12 +223,9 @@ fn readings_in_a_line(family: &ToneFamily, of_rotor: Option<&str>) -> String {
         }
         false => match of_rotor {
             Some(of_rotor) => {
-                format!(
-                    "{INDENT}{of_rotor}\n{INDENT}if not, but if it is the tone of a rotor, this rotor turns at {}\n",
-                    words.join(" or ")
-                )
+                format!("{INDENT}{of_rotor}\n{INDENT}or the tone of a rotor that turns at {}\n", words.join(" or "))
             }
-            None => format!("{INDENT}if it is the tone of a rotor, this rotor turns at {}\n", words.join(" or ")),
+            None => format!("{INDENT}as the tone of a rotor: it turns at {}\n", words.join(" or ")),
         },
     }
 }

@@ -1,4 +1,4 @@
-//! The vehicle presets, every number with its source.
+//! The vehicles, presets or the user's own, every number with its source.
 
 use crate::printable::{width_of, wrapped};
 use hovertone_vehicle::{Sourced, Vehicle};
@@ -6,14 +6,14 @@ use std::fmt::Write;
 
 /// Text in place of a number without a source.
 const UNKNOWN: &str = "not known";
-/// Text for direct drive, or for a gear without a source; a preset does not distinguish them.
+/// Text for direct drive, or for a gear without a source; a vehicle does not distinguish them.
 const NO_GEAR: &str = "none known";
 /// Fewest columns of a source beside its number.
 const SOURCE_WIDTH_MIN: usize = 30;
 /// Columns before a source below its number.
 const SOURCE_INDENT: usize = 4;
 
-/// All presets for people, in lines of at most `width` characters where possible.
+/// Vehicles for people, in lines of at most `width` characters where possible.
 pub fn vehicles_text(vehicles: &[Vehicle], width: usize) -> String {
     let id_width = vehicles.iter().map(|vehicle| vehicle.id.len()).max().unwrap_or(0);
     let rows: Vec<Vec<Row>> = vehicles.iter().map(rows_of).collect();
@@ -77,7 +77,7 @@ fn row<T>(name: &'static str, number: Option<Sourced<T>>, in_words: impl Fn(T) -
     }
 }
 
-/// All presets as JSON, ending with a line feed.
+/// Vehicles as JSON, ending with a line feed.
 ///
 /// # Errors
 /// None is known, since all types can be serialised.

@@ -1,7 +1,7 @@
 //! The mass of a hovering vehicle from its sound.
 
 use crate::notice::Notice;
-use crate::number::{expanded, rounded, significant, with_uncertainty};
+use crate::number::{may_be_zero, rounded, significant, with_uncertainty};
 use crate::recording::SpeedRecord;
 use crate::thrust::WITHOUT_FLIGHTS;
 use crate::version::VERSION;
@@ -91,9 +91,7 @@ pub fn weighed_text(weighed: &WeighedHover, listed_kg: Option<f64>) -> String {
     );
     text += &match weighed.payload_kg {
         Some(payload_kg) => {
-            let is_none =
-                expanded(payload_kg.std_uncertainty).is_some_and(|expanded| expanded > payload_kg.value.abs());
-            let or_none = match is_none {
+            let or_none = match may_be_zero(payload_kg) {
                 true => "; the ± is larger than the payload, so there may be none",
                 false if payload_kg.value < 0.0 => {
                     "; no payload weighs less than nothing: check the constant, the mass of the vehicle, and the blades or the gear"

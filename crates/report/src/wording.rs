@@ -19,6 +19,12 @@ pub struct Wording {
 /// In place of the advice to hear one rotor in a band: the loads of an experiment have their tones in different bands.
 pub const ONE_BAND_FOR_ALL: &str = "; a nearer microphone may help to separate the rotors";
 
+/// Advice where one tone stands for all rotors, because --mean-only or --method harmonic asks for it.
+pub const LEAVE_MEAN_ONLY_OUT: &str = "to hear each rotor, leave --mean-only or --method harmonic out";
+
+/// The same where another method asks for it.
+pub const LEAVE_METHOD_OUT: &str = "to hear each rotor, leave --method out";
+
 impl Wording {
     /// For an experiment file, in which facts have keys.
     pub const IN_EXPERIMENT: Self = Self {

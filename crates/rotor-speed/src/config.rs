@@ -79,6 +79,11 @@ impl Config {
         Method::ALL.into_iter().filter(is_possible).filter(is_wanted)
     }
 
+    /// Whether several rotors are separated.
+    pub(crate) fn wants_rotors(&self) -> bool {
+        self.methods().any(|method| method == Method::Separated)
+    }
+
     /// Whether a method is computed that reads ridges.
     pub(crate) fn wants_ridges(&self) -> bool {
         self.methods().any(Method::reads_ridges)

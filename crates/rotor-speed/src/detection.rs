@@ -4,8 +4,8 @@ use crate::hover::HoverConfig;
 use crate::survey::Survey;
 use crate::tone::ToneConfig;
 use hovertone_analysis::{
-    Band, CutReason, Hover, Method, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate,
-    TrackPoint, Warning,
+    Band, CutReason, Hover, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, TrackPoint,
+    Warning,
 };
 use hovertone_signal::statistics::mean;
 
@@ -101,17 +101,16 @@ pub(crate) fn warning_of_samples(samples: &[SampleSpeeds], length_s: f64) -> Opt
 /// Whether all rotors that there are were told apart.
 pub(crate) fn warning_of_rotors(
     rotors: &[RotorEstimate],
-    speeds: &[SpeedEstimate],
+    in_mean: usize,
     count: u32,
     is_assumed: bool,
     spread_share: f64,
 ) -> Option<Warning> {
     let resolved = rotors.len();
-    let has_mean = speeds.iter().any(|speed| speed.method == Method::Separated);
     (count > 1 && resolved < count as usize).then_some(Warning::RotorsNotApart {
         resolved,
         of: count,
-        has_mean,
+        in_mean,
         is_assumed,
         spread_share,
     })

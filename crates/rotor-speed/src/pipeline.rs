@@ -41,7 +41,7 @@ pub fn passes_of_speed(config: &Config) -> u32 {
 }
 
 pub(crate) fn passes_after_survey(config: &Config) -> u32 {
-    if config.methods().any(|method| method == Method::Separated) { 3 } else { 1 }
+    if config.wants_rotors() { 3 } else { 1 }
 }
 
 /// The first stage by itself, for several analyses of one recording.
@@ -115,7 +115,7 @@ pub fn rotors_from_survey(passes: &mut Passes<'_>, surveyed: &Surveyed, config: 
         Ok(candidates) => candidates,
         Err(stop) => return stop.answer(surveyed.heard).map(|_| HoverRotors::default()),
     };
-    let hover = hover_from_candidate(surveyed, &candidates, candidates.leading_rev_s, config);
+    let hover = hover_from_candidate(surveyed, &candidates, config);
     let tracks = rotors_from_hover(passes, surveyed, &hover, candidates.leading_rev_s, config)?;
     Ok(HoverRotors { rotors: tracks.rotors(config.tone.order, &config.budget), hover })
 }
@@ -145,10 +145,9 @@ fn speed_of_candidate(
     candidates: &Candidates,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
-    let speed_rev_s = candidates.leading_rev_s;
-    let hover = hover_from_candidate(surveyed, candidates, speed_rev_s, config);
-    let middle_rev_s = candidates.middle_rev_s(surveyed, &hover, speed_rev_s, config);
-    let rotors_rev_s = candidates.rotors_rev_s(speed_rev_s, config);
+    let hover = hover_from_candidate(surveyed, candidates, config);
+    let middle_rev_s = candidates.middle_rev_s(surveyed, &hover, config);
+    let rotors_rev_s = candidates.rotors_rev_s(config);
     lines_from_hover(passes, surveyed, &hover, middle_rev_s, config)
         .and_then(|lines| decision_from_lines(passes, surveyed, candidates, &hover, rotors_rev_s, lines, config))
         .and_then(|decision| speeds_from_decision(surveyed.heard, hover, decision, config))

@@ -29,5 +29,5 @@ mod without_lines;
 
 pub use error::SignalError;
 pub use hovertone_fft as fft;
-pub use source::{Signal, SignalSource, SourceError};
+pub use source::{RECORDED_RATE_SHARE, Signal, SignalSource, SourceError};
 pub use without_lines::SteadyLines;

@@ -3,6 +3,9 @@
 use std::error::Error;
 use std::fmt;
 
+/// Highest frequency that a recording holds without loss, as a share of its sample rate: the filters of recorders end below one half. *Physics.*
+pub const RECORDED_RATE_SHARE: f64 = 0.45;
+
 /// Mono sound that delivers its samples in blocks and can start again from the first sample.
 ///
 /// An analysis reads a source several times and holds one block at a time, so that memory does not grow with the length of

@@ -8,6 +8,17 @@ pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
+/// Mean of values that each count as their square, `Σ x³ / Σ x²`, in the unit of the values: the typical one of the large values, even where
+/// these are few. `None` where none differs from 0.
+pub fn mean_by_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let (mut cubes, mut squares) = (0.0, 0.0);
+    for value in values {
+        cubes += value.powi(3);
+        squares += value.powi(2);
+    }
+    (squares > 0.0).then(|| cubes / squares)
+}
+
 /// Sample standard deviation, in the unit of the values: s = √(Σ (x − x̄)² / (n − 1)). `None` for fewer than two values.
 ///
 /// This is eq 8 of the paper with the square that the printed form lacks.
@@ -91,6 +102,7 @@ mod tests {
             (Some(3.0), Some(2f64.sqrt()), Some(5.0))
         );
         assert_eq!(std_uncertainty_of_mean(&[2.0, 2.0, 2.0]), Some(0.0));
+        assert_eq!((mean_by_square([1.0, 0.0, 3.0]), mean_by_square([0.0, 0.0])), (Some(2.8), None));
     }
 
     #[test]

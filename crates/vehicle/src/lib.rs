@@ -29,10 +29,11 @@ pub use flight::{
 pub use frame::RotorPlace;
 pub use known_rotor::KnownRotor;
 pub use limits::{
-    BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, GRAMS_FACTOR, KNOWN_MASS_SHARES,
-    KNOWN_RANGE_MARGIN, LOGGED_REV_S_MAX, MASS_ALONE_KG_MAX, MASS_FACTOR_MAX, MESH_SIDEBANDS, PROPELLER_DIAMETER_M,
-    ROTOR_SPREAD_SHARE, ROTORS_MAX, SHAFT_REV_S, THRUST_COEFFICIENT, are_masses_of_one_vehicle, check_diameter,
-    check_not_negative, check_positive, check_range, is_swamped, loudest_rotor_share,
+    BLADE_COUNT_MAX, BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, GRAMS_FACTOR,
+    KNOWN_MASS_SHARES, KNOWN_RANGE_MARGIN, LOGGED_REV_S_MAX, MASS_ALONE_KG_MAX, MASS_FACTOR_MAX, MESH_SIDEBANDS,
+    PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, ROTOR_STD_SHARE, ROTORS_MAX, SHAFT_REV_S, THRUST_COEFFICIENT,
+    are_masses_of_one_vehicle, check_diameter, check_not_negative, check_positive, check_range, is_swamped,
+    loudest_rotor_share,
 };
 pub use line_levels::LineLevels;
 pub use list::in_list;

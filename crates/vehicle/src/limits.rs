@@ -3,8 +3,11 @@
 use crate::QuantityError;
 use std::ops::RangeInclusive;
 
-/// Most blades of a propeller. A tone of higher order is a gear mesh. *Physics.*
-pub const BLADES_MAX: f64 = 12.0;
+/// Most blades of a propeller. *Physics.*
+pub const BLADE_COUNT_MAX: u32 = 12;
+
+/// Highest order of a blade pass, which is that of [`BLADE_COUNT_MAX`] blades. A tone of higher order is a gear mesh. *Physics.*
+pub const BLADES_MAX: f64 = BLADE_COUNT_MAX as f64;
 
 /// Orders beside a gear mesh and its multiples at which its sidebands lie: one and two shaft turns to either side. *Physics.*
 pub const MESH_SIDEBANDS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
@@ -49,6 +52,10 @@ pub const KNOWN_RANGE_MARGIN: f64 = 1.5;
 
 /// Default standard deviation of the rotors' speeds about their mean, as a share: rotors spread evenly over ±1 % have 0.58 %. *Decision.*
 pub const ROTOR_SPREAD_SHARE: f64 = 0.0058;
+
+/// Standard deviation of the speed of one rotor from the mean of the others, as a share, where nothing is known of it: the rotors of real
+/// quadrotors differ by 13 to 22 % from slowest to fastest (DREGON, Strauss et al. 2018; a flight of a DJI M100). *Physics.*
+pub const ROTOR_STD_SHARE: f64 = 0.06;
 
 /// Default change of the distance to the microphone during a hover, m. *Decision.*
 pub const DRIFT_M_MAX: f64 = 0.5;

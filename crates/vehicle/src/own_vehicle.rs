@@ -1,13 +1,13 @@
 //! A vehicle that a user describes in a file, beside the presets.
 
 use crate::{
-    Contradiction, Gear, KnownRotor, QuantityError, RotorSpeed, SHAFT_REV_S, ShaftSpeedRange, Sourced, Vehicle,
-    check_diameter, check_tips,
+    BLADE_COUNT_MAX, Contradiction, Gear, KnownRotor, QuantityError, RotorSpeed, SHAFT_REV_S, ShaftSpeedRange, Sourced,
+    Vehicle, check_diameter, check_tips,
 };
 use serde::Deserialize;
 
-/// Most blades of a propeller that a file may state. *Physics.*
-const BLADES_ALLOWED: std::ops::RangeInclusive<u32> = 1..=20;
+/// The numbers of blades up to [`BLADE_COUNT_MAX`] in words.
+const BLADES_WORDS: &str = "from 1 to 12";
 /// [`SHAFT_REV_S`] in words.
 const SHAFT_WORDS: &str = "from 1 to 1500: it is in turns per second, and 3600 rpm are 60";
 /// Source of the numbers where the file names none.
@@ -106,8 +106,8 @@ impl OwnVehicle {
         let diameter_m = self.propeller_diameter_m;
         diameter_m.map_or(Ok(()), |diameter_m| check_diameter("propeller_diameter_m", diameter_m))?;
         match (self.blades, self.mass_kg, self.shaft_speed_rev_s) {
-            (Some(blades), ..) if !BLADES_ALLOWED.contains(&blades) => {
-                refuse("blades", f64::from(blades), "from 1 to 20")
+            (Some(blades), ..) if !(1..=BLADE_COUNT_MAX).contains(&blades) => {
+                refuse("blades", f64::from(blades), BLADES_WORDS)
             }
             (_, Some(mass_kg), _) if of_mass.check().is_err() => {
                 refuse("mass_kg", mass_kg, "from 0.001 to 10000: it is in kilograms")
@@ -153,6 +153,7 @@ mod tests {
     #[test]
     fn the_words_have_the_bounds() {
         assert!(SHAFT_WORDS.contains(&format!("from {} to {}:", SHAFT_REV_S.start(), SHAFT_REV_S.end())));
+        assert_eq!(BLADES_WORDS, format!("from 1 to {BLADE_COUNT_MAX}"));
     }
 
     #[test]
@@ -163,6 +164,7 @@ mod tests {
         for (wrong, said) in [
             (OwnVehicle { rotors: 0, ..own() }, "rotors"),
             (OwnVehicle { blades: Some(0), ..own() }, "blades"),
+            (OwnVehicle { blades: Some(13), ..own() }, "blades = 13, but it must be from 1 to 12"),
             (OwnVehicle { propeller_diameter_m: Some(254.0), ..own() }, "metres"),
             (OwnVehicle { mass_kg: Some(f64::NAN), ..own() }, "mass_kg"),
             (OwnVehicle { shaft_speed_rev_s: Some((200.0, 40.0)), ..own() }, "shaft_speed_rev_s"),

@@ -143,8 +143,8 @@ fn notice_of_one_tone(record: &SpeedRecord, config: &Config) -> Option<Notice> {
         100.0 * share
     );
     let hint = match config.method {
-        Method::Harmonic => "to hear each rotor, leave --mean-only or --method harmonic out",
-        _ => "to hear each rotor, leave --method out",
+        Method::Harmonic => hovertone_report::LEAVE_MEAN_ONLY_OUT,
+        _ => hovertone_report::LEAVE_METHOD_OUT,
     };
     (share > 0.0).then(|| Notice::new(text, hint))
 }

@@ -157,7 +157,7 @@ impl Identified {
     pub fn tables_in_words(&self, width: Option<usize>) -> String {
         let mut text = String::new();
         for table in &self.tables {
-            text += &format!("\n{}\n{}", table.title(), table_text(&thrust_table(table), width));
+            text += &format!("\nMethod: {}\n{}", table.title(), table_text(&thrust_table(table), width));
         }
         text += &format!("{LOADS_FOOTNOTE}\n\n{}\n", self.summary(width));
         for titled in flight_log_tables(&self.inputs, &names_of(&self.inputs)) {

@@ -4,7 +4,7 @@ use super::groups::{band, gear, whole_number};
 use super::thrust::PlaceArguments;
 use super::units::length_m;
 use clap::Args;
-use hovertone_vehicle::{Gear, ROTORS_MAX};
+use hovertone_vehicle::{BLADE_COUNT_MAX, Gear, ROTORS_MAX};
 
 /// How to type loads, for the help of both commands.
 pub(crate) const MASS_HELP: &str = "\
@@ -25,7 +25,7 @@ pub(crate) struct DraftArguments {
     #[arg(long, value_name = "NAME")]
     pub(crate) vehicle: Option<String>,
     /// Blades of each propeller
-    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=BLADE_COUNT_MAX))]
     pub(crate) blades: Option<u32>,
     /// Teeth of the motor's pinion and of the rotor's wheel, or of the wheel alone
     #[arg(long, value_name = "P:W", value_parser = gear)]

@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser};
 use hovertone::experiment::time_s_from_text;
 use hovertone::speed::Method;
-use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Gear};
+use hovertone_vehicle::{BLADE_COUNT_MAX, CLOCK_CORRECTION_PPM_MAX, Gear};
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use std::str::FromStr;
 #[command(next_help_heading = "Which tone")]
 pub(crate) struct ToneArguments {
     /// Number of blades of each propeller: without --gear, hovertone follows the tone of the blades (blade pass)
-    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=BLADE_COUNT_MAX))]
     pub(crate) blades: Option<u32>,
     /// Teeth of the motor's pinion and of the rotor's wheel, or of the wheel alone: hovertone follows the tone of the gear
     #[arg(long, value_name = "P:W", value_parser = gear)]

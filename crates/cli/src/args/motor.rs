@@ -35,7 +35,7 @@ pub(crate) struct MotorArguments {
     pub(crate) commands: Option<PathBuf>,
     /// Time to add to the clock of the commands to get that of the recording, in s [default: found from the steps; then the dead time is
     /// not]
-    #[arg(long, value_name = "S", requires = "commands", value_parser = clock_offset_s)]
+    #[arg(long, value_name = "S", requires = "commands", allow_hyphen_values = true, value_parser = clock_offset_s)]
     pub(crate) offset: Option<f64>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,

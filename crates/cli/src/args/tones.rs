@@ -2,6 +2,7 @@
 
 use super::groups::{HearingArguments, KnownArguments, time_s, typed_path, whole_number};
 use clap::Args;
+use hovertone_vehicle::BLADE_COUNT_MAX;
 use std::path::PathBuf;
 
 const TONES_EXAMPLES: &str = "\
@@ -26,7 +27,7 @@ pub(crate) struct TonesArguments {
     #[arg(required = true, value_name = "FILE", value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
     /// Blades of each propeller: it rules out all other numbers of blades
-    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20), help_heading = "Known facts about the vehicle")]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=BLADE_COUNT_MAX), help_heading = "Known facts about the vehicle")]
     pub(crate) blades: Option<u32>,
     #[command(flatten)]
     pub(crate) known: KnownArguments,

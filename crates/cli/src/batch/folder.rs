@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 
 /// What the folder is of.
 pub(crate) const IDENTITY: &str = "batch.json";
+/// What a batch writes, beside parts and tracks.
+const WRITTEN: [&str; 3] = [IDENTITY, super::tables::RECORDINGS, super::tables::OVERVIEW];
 /// Folder of the parts.
 const PARTS: &str = "parts";
 /// Ending of a part.
@@ -35,8 +37,7 @@ impl BatchFolder {
         }
         let text = serde_json::to_string_pretty(identity).map_err(Failure::internal)?;
         let run = format!("batch {}", sha256_of_bytes(text.as_bytes()));
-        let files = [IDENTITY, super::tables::RECORDINGS, super::tables::OVERVIEW];
-        let content = FolderContent { name: "with the same recordings and settings", run: &run, files: &files };
+        let content = FolderContent { name: "with the same recordings and settings", run: &run, files: &WRITTEN };
         let folder = OutputFolder::checked(path, outputs, &content)?;
         fs::create_dir_all(path).map_err(|error| Failure::cannot_write(&error, path))?;
         let locks = [lock_of_run(path, shard)?, lock_of_shard(path, shard)?];
@@ -57,7 +58,7 @@ impl BatchFolder {
 
     /// Removes what an earlier batch wrote, and nothing else.
     fn remove_results(&self) -> Result<(), Failure> {
-        for name in [IDENTITY, super::tables::RECORDINGS, super::tables::OVERVIEW] {
+        for name in WRITTEN {
             remove_written(&self.place(name))?;
         }
         let tracks = entries_of(&self.place(super::tables::TRACKS));

@@ -38,13 +38,13 @@ pub(super) fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArgum
         // each of the two alone would leave it open
         Judgement::Undecided if comparison.least_expanded_ppm() >= arguments.clock_ppm => {
             format!(
-                ". Neither the known {what} nor the sound is exact enough: measure the {what} more exactly, give its standard uncertainty \
+                ". Neither the known {what} nor the sound is exact enough: measure the {what} more exactly, give half of its ±, in ppm, \
                  with --known-std-ppm, and make a longer recording"
             )
         }
         Judgement::Undecided if comparison.is_known_the_less_exact() => {
             format!(
-                ". Most of the ± comes from the known {what}: measure it more exactly, and give its new standard uncertainty with \
+                ". Most of the ± comes from the known {what}: measure it more exactly, and give half of its ±, in ppm, with \
                  --known-std-ppm"
             )
         }
@@ -71,9 +71,9 @@ pub(super) fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArgum
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         let is_exact = comparison.reference.std_share() == 0.0;
         let right = match is_exact {
-            true => format!(
-                "if the known {what} is exact; if it is not, give its standard uncertainty with --known-std-ppm"
-            ),
+            true => {
+                format!("if the known {what} is exact; if it is not, give half of its ±, in ppm, with --known-std-ppm")
+            }
             false => format!("if the known {what} is right within its ±"),
         };
         let unusual = format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known {what} first\n");

@@ -1,7 +1,7 @@
 //! A heard speed against the known one, in words and as JSON.
 
 use super::clock_words::clock_in_words;
-use super::{AMBIGUOUS, BAND_SHARE, HARDLY_HEARD, MILLION, OTHER_ROTOR, SEVERAL_ROTORS, band_around};
+use super::{BAND_SHARE, MILLION, OPEN, band_around};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
 use crate::order_words::{times, times_per_turn};
@@ -228,7 +228,7 @@ pub(super) fn word(judgement: Judgement) -> &'static str {
 }
 
 /// A number to be typed, without the digits of binary fractions.
-fn to_tenths(value: f64) -> f64 {
+pub(super) fn to_tenths(value: f64) -> f64 {
     (10.0 * value).round() / 10.0
 }
 
@@ -315,7 +315,7 @@ pub(super) fn as_json(
         "passes": match judgement {
             Some(Judgement::Passes) => Some(true),
             Some(Judgement::Undecided) => None,
-            None if [SEVERAL_ROTORS, AMBIGUOUS, OTHER_ROTOR, HARDLY_HEARD].contains(&status) => None,
+            None if OPEN.contains(&status) => None,
             Some(Judgement::Fails) | None => Some(false),
         },
         "order": heard.map(|heard| heard.order.lines_per_turn()),

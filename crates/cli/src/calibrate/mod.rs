@@ -12,7 +12,7 @@ use crate::recording::{Hearing, Job, Requests, line_in_band, records_of};
 use crate::settings::config_of;
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
-use comparison::{Comparison, HeardSpeed, Reference, as_json, heard_beside_known, in_words};
+use comparison::{Comparison, HeardSpeed, Reference, as_json, heard_beside_known, in_words, to_tenths};
 use hovertone::calibration::Judgement;
 use hovertone::sound::HeardBand;
 use hovertone::speed::{Config, NoTone, SpeedAnalysis, Warning};
@@ -34,6 +34,8 @@ const SEVERAL_ROTORS: &str = "several_rotors";
 const OTHER_ROTOR: &str = "other_rotor";
 /// Status where the tone of the given order is hardly heard: then other lines told the speed, and nothing is said of the order.
 const HARDLY_HEARD: &str = "tone_hardly_heard";
+/// The statuses without a judgement: they are no error, and `passes` is null.
+const OPEN: [&str; 4] = [SEVERAL_ROTORS, AMBIGUOUS, OTHER_ROTOR, HARDLY_HEARD];
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
 const SEVERAL_IN_WORDS: &str =
@@ -106,7 +108,7 @@ fn say_notes(heard: &Heard, name: &str, notice: Option<&Notice>, terminal: &mut 
     }
     if let Some(reason) = &heard.reason {
         // an answer that is open is no error
-        if [SEVERAL_ROTORS, AMBIGUOUS, OTHER_ROTOR, HARDLY_HEARD].contains(&heard.status) {
+        if OPEN.contains(&heard.status) {
             return terminal.say(&format!("{name}: {reason}"));
         }
         terminal.error(&Notice::new(format!("{name}: {reason}"), ""));
@@ -155,7 +157,8 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress)
         _ => false,
     };
     if let Some(warning) = doubt.filter(|warning| agrees || other_agrees(warning)) {
-        return undecided(OTHER_ROTOR, format!("{warning}; {}", warning.hint()));
+        let hints = record.as_ref().map_or_else(Vec::new, |record| record.given_facts().hints(&[warning]));
+        return undecided(OTHER_ROTOR, format!("{warning}; {}", hints.concat()));
     }
     if let Some(why) = record.as_ref().and_then(|record| hardly_heard_in_words(record, plan.config.tone.blades)) {
         return undecided(HARDLY_HEARD, why);
@@ -183,7 +186,7 @@ fn settled_by(plan: &Plan, order: Order) -> String {
                 "the known speed, {rpm} rpm, is not one of them, because hovertone hears only rotors of \
                  {slowest_rpm:.0} rpm or more; check the known speed; if it was in turns per second, give \
                  --tachometer-rpm {}",
-                60.0 * rpm
+                to_tenths(60.0 * rpm)
             );
         }
         Reference::Speed { rpm, .. } => RotorSpeed::from_rpm(rpm).tone_hz(order),

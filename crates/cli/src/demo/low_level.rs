@@ -21,7 +21,7 @@ use hovertone_logs::{ColumnNames, RateAxes};
 use hovertone_page::{LowLevelPage, low_level_html};
 use hovertone_report::{
     GreyBoxRecord, TitledTable, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables, grey_box_text,
-    significant, table_text,
+    grey_box_warnings, significant, table_text,
 };
 use hovertone_sim::FlightState;
 use hovertone_sim::scenario::{
@@ -96,7 +96,7 @@ pub(super) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     for (figure, name) in figures.iter().zip(FIGURES) {
         folder.write(name, &figure.svg)?;
     }
-    folder.write(RESULTS, grey_box_json(&record).map_err(Failure::internal)? + "\n")?;
+    folder.write(RESULTS, grey_box_json(&record, &grey_box_warnings(&record)).map_err(Failure::internal)?)?;
     folder.write(IDENTIFIED, scenario_toml(&heard.fit, &vehicle)?)?;
     folder.write(PAGE, page(&record, &against_truth, &figures, &flown_beside)?)?;
     let width = terminal.fold_width();

@@ -7,7 +7,7 @@ mod planned;
 use crate::args::{AirArguments, FitArguments, PlaceArguments};
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
-use crate::inputs::{is_no_text, read_bytes};
+use crate::inputs::{is_no_text, name_of, read_bytes};
 use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
 use failures::{refuse_absurd_force, refuse_absurd_std, table_failure, unfitted, without_scatter};
@@ -193,7 +193,7 @@ fn fitted_table(
     let notices =
         rotors_notice(table, is_weighed, plan).into_iter().chain(of_table).chain(too_strong).chain(of_fit).collect();
     Ok(FittedTable {
-        file: path.display().to_string(),
+        file: name_of(path),
         sha256: sha256.to_owned(),
         group: group.name.clone(),
         speed_column: table.speed_column.clone(),

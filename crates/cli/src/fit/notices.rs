@@ -108,8 +108,8 @@ pub(super) fn notice_of(warning: &ThrustWarning, rows: &FittedRows<'_>) -> Notic
                 if *law == ForceLaw::SquareWithIntercept { "check that the scale showed 0 at rest; " } else { "" };
             let (percent, size) = (fixed(100.0 * share.abs(), 1), if *share < 0.0 { "small" } else { "large" });
             let hint = format!(
-                "{zero}simulators use F = C_f ω². Its largest error is at {name} of the file: there, its force is {percent} % too {size}. If this is too \
-                 much, fit only the rows near the speeds that you need"
+                "{zero}simulators use F = C_f ω². Its largest error is at {name} of the file: the force that it gives there is {percent} % too {size}. If this is too \
+                 much, fit a copy of the file that has only the rows near the speeds that you need"
             );
             Notice::new(warning.to_string(), hint)
         }

@@ -1,9 +1,8 @@
 //! A flight: its log as inputs of the model, and the speeds of its rotors.
 
-use super::shown;
 use super::start::{Start, heard_mean, mean_of};
 use crate::failure::Failure;
-use crate::inputs::open_stream;
+use crate::inputs::{name_of, open_stream};
 use crate::log::{THE_LOG, log_failure};
 use crate::progress::Progress;
 use crate::recording::{Hearing, better_rotor, lines_of};
@@ -56,11 +55,11 @@ impl FlightFiles {
     }
 
     pub(crate) fn recording_name(&self) -> Option<String> {
-        self.recording.as_deref().map(shown)
+        self.recording.as_deref().map(name_of)
     }
 
     pub(crate) fn log_name(&self) -> String {
-        shown(&self.log)
+        name_of(&self.log)
     }
 }
 

@@ -21,7 +21,7 @@ use hovertone_dynamics::{SpeedObservation, YawInertia, advice_of, checked, torqu
 use hovertone_figures::{DOTS_PER_INCH, DrawnSpeeds, grey_box_figure};
 use hovertone_logs::RateAxes;
 use hovertone_report::{CheckedFlight, GreyBoxRecord, Notice, grey_box_json, grey_box_text, grey_box_warnings};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const SCENARIO: TextKind =
     TextKind { content: "a scenario", format: TextFormat::Toml, example: "--scenario scenario.toml" };
@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     terminal.warning_count(warnings.len());
     warnings.iter().for_each(|notice| terminal.warning(notice, ""));
     match arguments.json {
-        true => terminal.data(&grey_box_json(&record).map_err(Failure::internal)?)?,
+        true => terminal.data(&grey_box_json(&record, &warnings).map_err(Failure::internal)?)?,
         false => terminal.text(&grey_box_text(&record, terminal.fold_width()))?,
     }
     terminal.flush()?;
@@ -182,9 +182,4 @@ impl LogReader {
         let offset_s = if files.recording.is_some() { self.offset_s } else { 0.0 };
         FlownLog::read(&files.log, &self.names, self.axes, offset_s, vehicle)
     }
-}
-
-/// Name of a file in the output.
-fn shown(path: &Path) -> String {
-    path.display().to_string()
 }

@@ -150,7 +150,7 @@ fn checked_folder(
         folder,
         outputs,
         &FolderContent {
-            name: "of the same experiment (with other flags or another experiment file, it is another one)",
+            name: "of this experiment (another experiment file, or other flags in place of a file, make another experiment)",
             run: &run,
             files: &files,
         },

@@ -4,7 +4,7 @@ use super::ExperimentSource;
 use crate::copies::refuse_copies;
 use crate::failure::Failure;
 use crate::files::{files_of, home_expanded, is_pattern, missing_folder};
-use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
+use crate::inputs::{is_stdin, name_of, recording_of_stdin};
 use crate::recording::{Job, Requests};
 use crate::recording_files::{RecordingGroup, groups_below, groups_in};
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
@@ -144,7 +144,7 @@ pub(super) fn found_recordings<'a>(
             }
             for path in files {
                 let job = Job {
-                    name: if is_piped { STDIN.to_owned() } else { name_of(&path, root) },
+                    name: if is_piped { name_of(Path::new(name)) } else { name_below(&path, root) },
                     path,
                     config: load.config(&source.experiment),
                     discovery: None,
@@ -188,7 +188,7 @@ fn place_of(name: &str, root: &Path) -> PathBuf {
 }
 
 /// Name of a recording relative to the folder, with forward slashes on all systems.
-fn name_of(path: &Path, root: &Path) -> String {
+fn name_below(path: &Path, root: &Path) -> String {
     path.strip_prefix(root).unwrap_or(path).display().to_string().replace('\\', "/")
 }
 

@@ -9,7 +9,7 @@ use crate::recording_files::{RecordingGroup, groups_below, groups_in, recordings
 use crate::vehicles::known_vehicles;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
 use hovertone_report::{counted, printable, wrapped};
-use hovertone_vehicle::{Contradiction, Gear, ROTORS_MAX, SaidOfVehicle, Vehicle};
+use hovertone_vehicle::{BLADE_COUNT_MAX, Contradiction, Gear, ROTORS_MAX, SaidOfVehicle, Vehicle};
 use std::io::{BufRead, Write};
 use std::path::Path;
 
@@ -17,7 +17,6 @@ use std::path::Path;
 const ROTORS_OFFERED: u32 = 4;
 /// Columns of a long line.
 const WIDTH: usize = 80;
-const BLADES_MAX: u32 = 20;
 
 /// Asks for everything that the draft lacks. Recordings are looked for in `folder`.
 pub(super) fn complete<R: BufRead, W: Write>(
@@ -32,7 +31,7 @@ pub(super) fn complete<R: BufRead, W: Write>(
     }
     let vehicle = draft.preset.as_deref().and_then(|id| known.iter().find(|vehicle| vehicle.id == id));
     if draft.missing(vehicle).iter().any(|flag| flag.contains("--blades")) {
-        draft.blades = Some(dialog.ask("Blades of each propeller:", |answer| number(answer, None, BLADES_MAX))?);
+        draft.blades = Some(dialog.ask("Blades of each propeller:", |answer| number(answer, None, BLADE_COUNT_MAX))?);
         if vehicle.is_none() && draft.gear.is_none() {
             let question = "Gear between motor and rotor, as numbers of teeth PINION:WHEEL, such as 8:69 [none]:";
             draft.gear = dialog.ask(question, gear_of)?;
@@ -246,7 +245,7 @@ mod tests {
     #[test]
     fn another_vehicle_is_described_and_slips_are_asked_again() {
         let folder = folder_with(&["hover.mov"]);
-        let answers = "ardron\n\ntwo\n3\n69:8\n8:69\n\n25\n8ft\n8in\n413\n413g\nmissing/*.mov\n\n";
+        let answers = "ardron\n\ntwo\n13\n3\n69:8\n8:69\n\n25\n8ft\n8in\n413\n413g\nmissing/*.mov\n\n";
         let (draft, asked) = answered(Draft::default(), folder.path(), answers);
         let draft = draft.unwrap();
         assert_eq!((draft.blades, draft.rotors, draft.diameter_m), (Some(3), Some(4), Some(0.2032)), "{asked}");
@@ -254,7 +253,7 @@ mod tests {
         assert_eq!(draft.loads.len(), 1);
         for words in [
             "Did you mean \"ardrone\"",
-            "whole number",
+            "A whole number from 1 to 12 is needed.",
             "swapped",
             "did you mean 25in",
             "from 10 mm",

@@ -84,6 +84,8 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         terminal.data(&summary.in_words(&advice).unwrap_or_default())?;
         terminal.flush()?;
     }
+    // a message on the screen would go with it
+    drop(output);
     sound.notices().iter().chain(&too_fast).for_each(|notice| terminal.warning(notice, ""));
     Ok(if summary.is_settled() { Ending::Done } else { Ending::Incomplete })
 }

@@ -9,7 +9,7 @@ use crate::failure::{Ending, Failure};
 use crate::terminal::Terminal;
 use answer::{Answer, Asked, answer_to};
 use guests::Guests;
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 use std::thread;
 use tiny_http::{Header, Request, Response, Server};
@@ -33,14 +33,28 @@ pub(crate) fn run(arguments: &ServeArguments, terminal: &mut Terminal) -> Result
     let url = guests.url();
     terminal.text(&format!("{url}\n"))?;
     terminal.flush()?;
-    if !at.ip().is_loopback() {
-        terminal.say("other computers can open this address with its token; Ctrl-C stops hovertone");
+    if let Some(words) = others_in_words(at.ip()) {
+        terminal.say(&words);
     }
     if !arguments.no_open && open::that_detached(&url).is_err() {
         terminal.say("no browser could be opened: open this address in a browser yourself");
     }
     serve(&Arc::new(server), &Arc::new(guests));
     Ok(Ending::Done)
+}
+
+/// How other computers open the page; `None` where they cannot. An unspecified address such as 0.0.0.0 stands for all addresses of this
+/// computer, and no other computer can open it.
+fn others_in_words(at: IpAddr) -> Option<String> {
+    let how = match at {
+        at if at.is_loopback() => return None,
+        at if at.is_unspecified() => format!(
+            "other computers can open this address with its token, if you write the IP address of this computer in place \
+             of {at}"
+        ),
+        _ => "other computers can open this address with its token".to_owned(),
+    };
+    Some(format!("{how}; Ctrl-C stops hovertone"))
 }
 
 fn serve(server: &Arc<Server>, guests: &Arc<Guests>) {
@@ -79,4 +93,23 @@ fn respond(request: Request, guests: &Guests) {
     headers.for_each(|header| response.add_header(header));
     // a browser that went away needs no answer
     let _ = request.respond(response);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::others_in_words;
+
+    #[test]
+    fn an_unspecified_address_is_replaced_on_other_computers() {
+        let words = |at: &str| others_in_words(at.parse().unwrap());
+        assert_eq!(words("127.0.0.1"), None);
+        assert_eq!(
+            words("192.168.1.20").unwrap(),
+            "other computers can open this address with its token; Ctrl-C stops hovertone"
+        );
+        for at in ["0.0.0.0", "::"] {
+            let said = words(at).unwrap();
+            assert!(said.contains(&format!("the IP address of this computer in place of {at};")), "{said}");
+        }
+    }
 }

@@ -29,11 +29,8 @@ pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Res
     let flown = ScenarioRun::new(source.scenario.clone()).map_err(|error| source.failure(&error))?;
     let outputs = Outputs::beside(source.inputs(), arguments.replace.force);
     let run = format!("simulate {}", source.sha256);
-    let content = FolderContent {
-        name: "of the same scenario (with other flags or another scenario file, it is another one)",
-        run: &run,
-        files: &[SOUND, TABLE, truth_json::NAME],
-    };
+    let content =
+        FolderContent { name: "of the same scenario file", run: &run, files: &[SOUND, TABLE, truth_json::NAME] };
     let folder = OutputFolder::prepare(&arguments.output, outputs, &content)?;
     let truth = write(flown, &source, &folder, !arguments.no_progress)?;
     truth_json::write(&folder, &source, &truth)?;

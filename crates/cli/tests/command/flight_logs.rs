@@ -98,6 +98,40 @@ fn the_log_of_a_flight_names_rotors_checks_the_order_and_tells_the_motors() {
     assert!(fs::read_to_string(out.join("tables.md")).unwrap().contains("Heard rotors and the motors of the log"));
 }
 
+/// The speeds of a CSV as PX4 logs them.
+fn ulog_of(table: &Path) -> Vec<u8> {
+    let message = |kind: u8, content: &[u8]| [&(content.len() as u16).to_le_bytes()[..], &[kind], content].concat();
+    let mut log = [&b"ULog\x01\x12\x35\x01"[..], &[0; 8]].concat();
+    log.extend(message(b'F', b"esc_report:int32_t esc_rpm;"));
+    log.extend(message(b'F', b"esc_status:uint64_t timestamp;esc_report[4] esc;"));
+    log.extend(message(b'A', b"\0\0\0esc_status"));
+    for row in csv::Reader::from_path(table).unwrap().records() {
+        let row = row.unwrap();
+        let mut content = vec![0; 2];
+        content.extend(((1e6 * row[0].parse::<f64>().unwrap()).round() as u64).to_le_bytes());
+        row.iter().skip(1).for_each(|rpm| content.extend(rpm.parse::<i32>().unwrap().to_le_bytes()));
+        log.extend(message(b'D', &content));
+    }
+    log
+}
+
+/// What is read of a damaged log is compared, and the exit code says that a part of it is missing.
+#[test]
+fn a_damaged_log_is_compared_and_ends_with_3() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path();
+    let flown = flown(folder);
+    let whole = ulog_of(&folder.join("right.csv"));
+    let file = experiment(folder, &flown, &with_log(&flown.sound, "flight.ulg"));
+    // the last message is cut
+    for (bytes, code) in [(&whole[..], 0), (&whole[..whole.len() - 5], 3)] {
+        fs::write(folder.join("flight.ulg"), bytes).unwrap();
+        let run = hovertone(&["identify", &file]).ends_with(code);
+        assert!(run.stdout.contains("\nthe speeds in flight.ulg fit the sound\n"), "{}", run.stdout);
+        assert_eq!(run.stderr.contains("flight.ulg: the log breaks off"), code == 3, "{}", run.stderr);
+    }
+}
+
 #[test]
 fn a_failed_order_check_is_a_warning_on_top_and_in_the_verdict() {
     let temporary = tempfile::tempdir().unwrap();

@@ -36,7 +36,11 @@ fn a_log_with_speeds_tells_a_model_that_can_be_flown_and_predicts_another_flight
     let common = ["--vehicle", "ardrone", "--check", &other];
     let run =
         hovertone(&[&["greybox", &log, "--json", "--scenario", &scenario, "--figure", &figure], &common[..]].concat());
-    let line = run.ends_with(0).json_lines().remove(0);
+    let run = run.ends_with(0);
+    assert!(run.stdout.ends_with("}\n"), "{}", run.stdout);
+    let line = run.json_lines().remove(0);
+    assert!(line["trust"].as_str().unwrap().starts_with("the ± "), "{}", line["trust"]);
+    assert!(line["warnings"].as_array().unwrap().is_empty(), "{}", line["warnings"]);
     let roll = line["loops"].as_array().unwrap().iter().find(|of| of["name"] == "roll").unwrap();
     let gain_v = roll["proportional_v"]["value"].as_f64().unwrap();
     assert!((gain_v / ROLL.proportional - 1.0).abs() < 0.03, "{gain_v}");
@@ -54,6 +58,14 @@ fn a_log_with_speeds_tells_a_model_that_can_be_flown_and_predicts_another_flight
     let (counts, named) = shown.split_once(" of the model, all but ").unwrap_or_default();
     assert_eq!(counts, format!("the flight shows {told} of the 23 numbers"), "{shown}");
     assert_eq!(named.matches("the ").count(), 23 - told, "{shown}");
+    // a loop that the log lacks is a warning in the JSON too
+    let lacking = place("lacking.csv");
+    fs::write(&lacking, fs::read_to_string(&log).unwrap().replacen("velocity_z_m_s", "unused", 1)).unwrap();
+    let run = hovertone(&["greybox", &lacking, "--vehicle", "ardrone", "--json"]);
+    let said = "the model leaves out the control of climb: the log lacks its measured value";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
+    let line = run.json_lines().remove(0);
+    assert!(line["warnings"].to_string().contains(said), "{}", line["warnings"]);
 }
 
 #[test]
@@ -80,6 +92,7 @@ fn another_vehicle_and_exchanged_axes_are_said() {
     assert!(said.contains("k_p of pitch and yaw are negative") && said.contains("check --log-axes"), "{said}");
     let line = hovertone(&[&frd[..], &["--json"]].concat()).ends_with(3).json_lines().remove(0);
     assert!(line["warnings"].to_string().contains("are negative"), "{}", line["warnings"]);
+    assert!(line["trust"].as_str().unwrap().starts_with("the numbers may be wrong"), "{}", line["trust"]);
     let right = hovertone(&["greybox", &log, "--vehicle", "ardrone"]).ends_with(0).stderr;
     assert!(!right.contains("negative"), "{right}");
 }

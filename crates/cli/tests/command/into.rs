@@ -225,7 +225,10 @@ fn a_changed_model_goes_elsewhere_by_the_rules_of_outputs() {
     let results = text(&results);
     assert!(hovertone(&["export", results, "--into", results]).ends_with(1).stderr.contains("no model of a simulator"));
     let torque = ["--torque-constant-n-m-s2", "5"];
-    refused_with(&[&["export", results, "--to", "gazebo"], &torque[..]].concat(), &["is less than 1 m"]);
+    refused_with(
+        &[&["export", results, "--to", "gazebo"], &torque[..]].concat(),
+        &[" m, and for every", "is less than 1 m"],
+    );
     let both = hovertone(&["export", results, "--to", "gazebo", "--into", text(&model)]).ends_with(2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
     fs::write(&model, IRIS.replace("5.84e-06", "${motor_constant}")).unwrap();

@@ -90,6 +90,40 @@ fn rotors_are_named_by_rates_and_by_speeds_and_by_neither() {
     assert!(table.contains("rotor 1, the fastest") && table.contains("once per turn"), "{table}");
 }
 
+/// The body rates of the truth as PX4 logs them, y to the right and z down, on a clock that is 31.4 s ahead.
+fn ulog_of_rates(head: &csv::StringRecord, rows: &[csv::StringRecord]) -> Vec<u8> {
+    let message = |kind: u8, content: &[u8]| [&(content.len() as u16).to_le_bytes()[..], &[kind], content].concat();
+    let mut log = [&b"ULog\x01\x12\x35\x01"[..], &[0; 8]].concat();
+    log.extend(message(b'F', b"sensor_combined:uint64_t timestamp;float[3] gyro_rad;"));
+    log.extend(message(b'A', b"\0\0\0sensor_combined"));
+    for row in rows {
+        let number = |name: &str| row[head.iter().position(|known| known == name).unwrap()].parse::<f64>().unwrap();
+        let mut content = vec![0; 2];
+        content.extend(((1e6 * (number("time_s") + 31.4)).round() as u64).to_le_bytes());
+        for (name, sign) in [("roll_rate_rad_s", 1.0), ("pitch_rate_rad_s", -1.0), ("yaw_rate_rad_s", -1.0)] {
+            content.extend(((sign * number(name)) as f32).to_le_bytes());
+        }
+        log.extend(message(b'D', &content));
+    }
+    log
+}
+
+/// What is read of a damaged log names the rotors, and the exit code says that a part of it is missing.
+#[test]
+fn a_damaged_log_names_the_rotors_and_ends_with_3() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, head, rows) = flown(folder.path());
+    let (log, whole) = (folder.path().join("flight.ulg"), ulog_of_rates(&head, &rows));
+    let speed = ["speed", "--vehicle", "ardrone", "--json", text(&sound), "--log", text(&log)];
+    // the last message is cut
+    for (bytes, code) in [(&whole[..], 0), (&whole[..whole.len() - 5], 3)] {
+        fs::write(&log, bytes).unwrap();
+        let line = hovertone(&speed).ends_with(code).json_lines().remove(0);
+        assert!(names(&line).len() == 4 && !names(&line).contains(&"-"), "{line}");
+        assert_eq!(line["warnings"].to_string().contains("the log breaks off"), code == 3, "{}", line["warnings"]);
+    }
+}
+
 /// Only a CSV of body rates needs --log-axes, so only there the axes may be wrong.
 #[test]
 fn a_log_of_another_flight_asks_for_its_axes_only_where_a_flag_gives_them() {

@@ -203,6 +203,15 @@ impl InTerminal {
         }
     }
 
+    /// What the terminal shows after the end of the command.
+    fn after_end(&mut self) -> String {
+        self.child.wait().unwrap();
+        while let Ok(bytes) = self.bytes.recv_timeout(Duration::from_secs(2)) {
+            self.screen.process(&bytes);
+        }
+        self.screen.screen().contents()
+    }
+
     fn press(&mut self, keys: &str) {
         self.keys.write_all(keys.as_bytes()).unwrap();
         self.keys.flush().unwrap();
@@ -231,4 +240,15 @@ fn the_screen_shows_the_speed_and_answers_keys() {
         // the terminal is as it was
         terminal.until(|text| !text.contains("q quit"));
     }
+}
+
+#[test]
+fn a_warning_stays_when_the_screen_is_gone() {
+    let folder = tempfile::tempdir().unwrap();
+    // a WAV file with the wrong name
+    let sound = folder.path().join("hover.flac");
+    write_ardrone(&sound, 3.0);
+    let arguments = ["listen", "--vehicle", "ardrone", "--rotors", "1", "--speed", "1000", "--from-file", text(&sound)];
+    let shown = InTerminal::start(&arguments, 24, 200).after_end();
+    assert!(shown.contains("warning: the file's name ends in .flac") && !shown.contains("q quit"), "{shown}");
 }

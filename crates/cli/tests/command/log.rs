@@ -62,7 +62,11 @@ fn a_log_is_listed_for_people_and_for_programs() {
     assert!(names.contains("table.settling time (s)  (s)"), "{names}");
     // a line of the list can be pasted as it is
     let pasted = ["log", &settling, "--signal", "table.settling time (s)  (s)", "-o", text(&out), "--force"];
-    hovertone(&pasted).ends_with(0);
+    let run = hovertone(&pasted).ends_with(0);
+    assert!(run.stderr.ends_with(", 2 rows\n"), "{}", run.stderr);
+    let single = written(folder.path(), "single.csv", "time_s,n\n0,1\n");
+    let run = hovertone(&["log", &single, "--signal", "table.n", "-o", text(&out), "--force"]).ends_with(0);
+    assert!(run.stderr.ends_with(", 1 row\n"), "{}", run.stderr);
 }
 
 #[test]

@@ -182,7 +182,7 @@ fn names_of_loads_cannot_move_the_cursor() {
 fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
     for (arguments, said) in [
         ("speed a.wav --mass-kg -1", "error: mass_kg = -1, but it must be from 0.001 to 10000 (hint: "),
-        ("speed a.wav --blades -1", "error: --blades -1: must be a whole number from 1 to 20 (hint: "),
+        ("speed a.wav --blades 13", "error: --blades 13: must be a whole number from 1 to 12 (hint: "),
         ("speed a.wav --rotors -1", "error: --rotors -1: must be a whole number, 1 or more (hint: "),
         ("speed a.wav --harmonics -1", "error: --harmonics -1: must be a whole number, 1 or more (hint: "),
         ("speed a.wav --channel -1", "error: --channel -1: must be a whole number, counted from 1 (hint: "),

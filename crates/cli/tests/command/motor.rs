@@ -297,6 +297,14 @@ fn advice_about_missing_steps_is_given_once() {
 }
 
 #[test]
+fn a_log_with_few_rows_says_how_far_apart_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "slow.csv", "time_s,rotor1_rpm\n0,6000\n0.2,6000\n0.4,7000\n0.6,7000\n");
+    let run = hovertone(&["motor", &log]).ends_with(3);
+    assert!(run.stdout.contains("the rows of this log are more than 100 ms apart: "), "{}", run.stdout);
+}
+
+#[test]
 fn what_is_neither_log_nor_recording_ends_with_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     let other = written(folder.path(), "other.bin", b"\0\x01\xfe\xd5\x13\x41");
@@ -309,7 +317,10 @@ fn what_is_neither_log_nor_recording_ends_with_a_sentence() {
     let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n");
     let run = hovertone(&["motor", text(&noise), "--commands", &flat]).ends_with(1);
     assert!(run.stderr.contains("has no motor commands") && run.stderr.contains("motor1_pwm"), "{}", run.stderr);
-    refused_with(&["motor", text(&noise), "--offset", "1"], &["--commands"]);
+    // a minus sign in front of minutes and seconds begins no flag
+    for offset in ["1", "-1", "-0:05"] {
+        refused_with(&["motor", text(&noise), "--offset", offset], &["--commands"]);
+    }
 }
 
 #[test]

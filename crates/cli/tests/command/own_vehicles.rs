@@ -65,7 +65,7 @@ fn a_second_vehicle_is_added_and_what_is_wrong_is_not() {
         ("[x]\nrotors = 4\nblade = 2\n", "did you mean \"blades\""),
         ("[x]\nblades = 2\n", "rotors"),
         ("[x]\nrotors = 4\nblades = \"two\"\n", "write a positive whole number; "),
-        ("[x]\nrotors = 4\nblades = 0\n", "it must be from 1 to 20 (hint: correct this number; "),
+        ("[x]\nrotors = 4\nblades = 0\n", "it must be from 1 to 12 (hint: correct this number; "),
         ("[x]\nrotors = 4\npropeller_diameter_m = 254.0\n", "metres"),
         ("[\"My Drone\"]\nrotors = 4\n", "small letters"),
         ("# none\n", "no vehicle"),

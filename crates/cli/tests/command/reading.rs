@@ -34,6 +34,7 @@ fn a_recording_and_a_table_come_from_stdin() {
     let fitted = piped(&["fit", "--json", "-"], &table).ends_with(0).stdout;
     let json: serde_json::Value = serde_json::from_str(&fitted).unwrap();
     assert!(json["thrust_constant_per_rotor_n_s2"]["value"].as_f64().is_some(), "{fitted}");
+    assert_eq!(json["file"], "stdin");
     assert_eq!(fs::read_dir(&kept).unwrap().count(), 0, "nothing is left of stdin");
     let twice = piped(&["speed", "--vehicle", "ardrone", "-", "-"], &sound).ends_with(2);
     assert!(twice.stderr.contains("given twice"), "{}", twice.stderr);

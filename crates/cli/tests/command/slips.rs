@@ -99,7 +99,7 @@ fn lengths_and_masses_are_typed_with_their_units() {
 fn a_standard_uncertainty_is_smaller_than_its_number() {
     let weigh = ["weigh", "a.wav", "--vehicle", "ardrone", "--constant-n-s2", "2.83e-5"];
     for (more, words) in [
-        (&["--mass-kg", "0.413", "--mass-std-kg", "413"][..], ["mass_std_kg = 413", "for 0.5 g write 0.0005"]),
+        (&["--mass-kg", "0.413", "--mass-std-kg", "413"][..], ["mass_std_kg = 413", "for ± 1 g write 0.0005"]),
         (&["--mass-std-kg", "413"], ["mass_std_kg = 413", "give --mass-kg"]),
         (&["--constant-std-n-s2", "1"], ["constant_std_n_s2 = 1", "2.8e-7"]),
         (

@@ -102,7 +102,7 @@ fn a_sine_is_one_family_with_its_frequency_to_a_hundredth() {
     let words = hovertone(&["tones", text(&path)]).stdout;
     assert!(
         words.contains("single line: 437.31 Hz")
-            && words.contains("if it is the tone of a rotor, this rotor turns at 218.7 rev/s (2 blades)"),
+            && words.contains("as the tone of a rotor: it turns at 218.7 rev/s (2 blades)"),
         "{words}"
     );
 }
@@ -215,7 +215,9 @@ fn lines_of_other_rotors_are_called_that() {
     let speeds: Vec<f64> = run
         .stdout
         .lines()
-        .filter_map(|line| line.split_once(" of another rotor of this vehicle, at ")?.1.split(' ').next()?.parse().ok())
+        .filter_map(|line| {
+            line.split_once(" of another rotor of this vehicle, which turns at ")?.1.split(' ').next()?.parse().ok()
+        })
         .collect();
     assert!(speeds.len() >= 3 && speeds.iter().all(|speed| (81.0..87.0).contains(speed)), "{}", run.stdout);
 }

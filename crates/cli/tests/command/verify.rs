@@ -151,6 +151,21 @@ fn rotors_that_are_not_separated_are_compared_without_another_flag() {
 }
 
 #[test]
+fn a_pattern_of_several_recordings_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (pattern, log) = (folder.path().join("*.wav"), folder.path().join("log.csv"));
+    fs::write(&log, "time_s,rotor1_rpm\n0,4000\n1,4100\n2,4200\n").unwrap();
+    crate::testkit::write_noise(&folder.path().join("first.wav"), 5.0);
+    let asked = ["verify", text(&pattern), text(&log), "--blades", "2"];
+    assert!(hovertone(&asked).ends_with(3).stderr.contains("nothing was compared"));
+    crate::testkit::write_noise(&folder.path().join("second.wav"), 2.0);
+    refused_with(
+        &asked,
+        &["the log belongs to one flight, but 2 recordings match the name", "give the recording of this flight"],
+    );
+}
+
+#[test]
 fn nothing_to_compare_ends_with_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     let noise = folder.path().join("noise.wav");

@@ -28,8 +28,6 @@ pub struct ChangedLine {
 /// A model with the measured numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UpdatedModel {
-    /// Format of the file.
-    pub format: SimulatorFormat,
     /// The whole text.
     pub text: String,
     /// What differs.
@@ -145,7 +143,7 @@ pub fn updated_model(text: &str, rotor: &IdentifiedRotor) -> Result<UpdatedModel
         let reason = "the place of its constant was not found".to_owned();
         return Err(ModelError::Broken { format: "a model that can be changed", reason });
     }
-    Ok(UpdatedModel { format, changes: changed_lines(text, &text_after), text: text_after })
+    Ok(UpdatedModel { changes: changed_lines(text, &text_after), text: text_after })
 }
 
 fn edited(text: &str, edits: &[Edit]) -> String {

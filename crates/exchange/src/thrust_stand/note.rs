@@ -220,7 +220,7 @@ impl fmt::Display for TableNote {
             ),
             Self::AtRest { count, speed_rpm } => write!(
                 f,
-                "{count} {}: slower than {speed_rpm:.0} rpm ({:.0} % of the fastest speed)",
+                "{count} {}: slower than {speed_rpm:.0} rpm ({:.0} % of the fastest speed), as of a motor that starts or stops",
                 if *count == 1 { "row is left out" } else { "rows are left out" },
                 100.0 * AT_REST_SHARE
             ),

@@ -157,6 +157,8 @@ fn what_means_nothing_is_refused_by_name() {
         let message = refusal(from, to);
         assert!(message.contains(said), "{to:?}: {message}");
     }
+    let many = refusal("preset = \"ardrone\"", "rotors = 4\nblades = 13");
+    assert!(many.contains("blades = 13, but it must be from 1 to 12"), "{many}");
     assert!(resolve("[vehicle]\npreset = \"ardrone\"\n").expect_err("no loads").contains("load"));
     assert!(
         resolve("[vehicle]\n[[load]]\nname = \"a\"\nrecordings = [\"a\"]\n").expect_err("no rotors").contains("rotors")

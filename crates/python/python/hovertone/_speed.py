@@ -336,7 +336,7 @@ def speed(
     'ok'
     >>> speed("hover.wav", blades=0)
     Traceback (most recent call last):
-    hovertone._errors.WrongUseError: --blades 0: must be a whole number from 1 to 20 (hint: for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)
+    hovertone._errors.WrongUseError: --blades 0: must be a whole number from 1 to 12 (hint: for example `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)
     """
     heard = to_hear(recording, rate_hz)
     with listening(progress) as listener:

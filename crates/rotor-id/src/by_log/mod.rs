@@ -72,8 +72,11 @@ pub fn labels_from_log(
     if rotor_count > LABELLED_ROTORS_MAX {
         return not_told(NotTold::TooManyRotors { rotors: rotor_count });
     }
+    if tracks.len() > rotor_count {
+        return not_told(NotTold::OtherCount { rotors: tracks.len(), of_log: names.len() });
+    }
     let needed = if source == LabelSource::BodyRates { rotor_count } else { TRACKS_MIN };
-    if tracks.len() < needed || tracks.len() > rotor_count {
+    if tracks.len() < needed {
         return not_told(NotTold::TooFewTracks { tracks: tracks.len(), needed });
     }
     let curves: Vec<SpeedCurve> = tracks.iter().map(|track| SpeedCurve::through(track)).collect();
@@ -125,4 +128,20 @@ fn offsets_s(rows: &LogRows, hover: Span, config: &LabelsConfig) -> Result<Vec<f
     }
     let middle_s = (low_s + high_s) / 2.0;
     Ok((0..count).map(|index| middle_s + config.offset_step_s * (index as f64 - (count - 1) as f64 / 2.0)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_of_fewer_motors_than_rotors_are_heard_is_of_another_vehicle() {
+        let names = vec!["motor 1".to_owned(), "motor 2".to_owned()];
+        let signals = LogSignals::Motors { signal: MotorSignal::Speed, names, values: vec![vec![400.0; 3]; 2] };
+        let log = FlightLog::new(vec![0.0, 0.1, 0.2], signals).unwrap();
+        let track: &[TrackPoint] = &[];
+        let reason = |tracks: &[&[TrackPoint]]| labels_from_log(tracks, 2, &log, &LabelsConfig::default()).not_told;
+        assert_eq!(reason(&[track; 3]), Some(NotTold::OtherCount { rotors: 3, of_log: 2 }));
+        assert_eq!(reason(&[track; 1]), Some(NotTold::TooFewTracks { tracks: 1, needed: 2 }));
+    }
 }

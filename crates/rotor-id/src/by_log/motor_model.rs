@@ -8,15 +8,13 @@ use super::noise_model::{NOISES, WhiteningFilter};
 use super::nuisance::{NuisanceBasis, dot, mean_series};
 use crate::settings::LabelsConfig;
 use hovertone_signal::statistics::{log_sum_exp, mean};
+use hovertone_vehicle::ROTOR_STD_SHARE;
 
 /// Time constants of a motor behind its command, in s, over which the likelihood is averaged: none; that of the AR.Drone (motor parameters
 /// of the AuRoRA simulation platform); that of large propellers (step responses on thrust stands). *Physics.*
 const COMMAND_LAGS_S: [f64; 3] = [0.0, 0.03, 0.08];
 /// Time constant behind a measured speed, in s: none. A filter of the telemetry is part of the offset of the clocks. *Decision.*
 const SPEED_LAGS_S: [f64; 1] = [0.0];
-/// Standard deviation of the rotors' mean speeds about their common mean, as a share, if the log has no relation to them. Rotors of real
-/// quadrotors differ by 13 to 22 % from slowest to fastest (DREGON, Strauss et al. 2018; a flight of a DJI M100). *Physics.*
-const UNRELATED_STD_SHARE: f64 = 0.06;
 /// Nuisance series: time, mean of the tracks, mean of the motors. *Numeric.*
 const NUISANCES: usize = 3;
 
@@ -98,8 +96,8 @@ impl<'a> MotorModel<'a> {
             unrelated += (of_track / track_mean - 1.0).powi(2);
         }
         let degrees = assignment.len() as f64 - 1.0;
-        (unrelated / UNRELATED_STD_SHARE.powi(2) - related / std_share.powi(2)) / 2.0
-            + degrees * (UNRELATED_STD_SHARE / std_share).ln()
+        (unrelated / ROTOR_STD_SHARE.powi(2) - related / std_share.powi(2)) / 2.0
+            + degrees * (ROTOR_STD_SHARE / std_share).ln()
     }
 }
 

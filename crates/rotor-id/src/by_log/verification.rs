@@ -1,7 +1,7 @@
 //! Heard speeds against the speeds in a log of the same flight: offset of the clocks, which track is which motor, bias, scatter and coverage.
 //!
-//! For each offset, each track is compared with each motor; the assignment with the least squares counts. A log whose speeds are a simple multiple
-//! of the heard ones is scaled first, so that a wrong order is told as such.
+//! For each offset, each track is compared with each motor, and the pairs are assigned by their mean squares: the best pair first, then the best of
+//! the rest. A log whose speeds are a simple multiple of the heard ones is scaled first, so that a wrong order is told as such.
 
 #[cfg(test)]
 mod tests;
@@ -242,7 +242,7 @@ impl Comparison<'_> {
 
     /// Mean square of the differences of a track and a motor; infinite with too little in common.
     fn square(&self, track: &[TrackPoint], motor: usize, offset_s: f64, points_max: usize) -> f64 {
-        let stride = track.len().div_ceil(points_max);
+        let stride = track.len().div_ceil(points_max).max(1);
         let differences = self.differences(track, motor, offset_s, stride);
         let expected = track.len().div_ceil(stride);
         if differences.len() < POINTS_MIN || (differences.len() as f64) < 0.5 * OVERLAP_SHARE_MIN * expected as f64 {
@@ -279,7 +279,7 @@ impl Comparison<'_> {
     /// The same where each track is its mean over the points that the log covers at this offset.
     fn cost_of_constants(&self, offset_s: f64, points_max: usize) -> f64 {
         let square = |(track, motor): (&&[TrackPoint], Option<usize>)| {
-            let compared = self.differences(track, motor?, offset_s, track.len().div_ceil(points_max));
+            let compared = self.differences(track, motor?, offset_s, track.len().div_ceil(points_max).max(1));
             let heard = || compared.iter().map(|difference| difference.point.speed_rev_s);
             let mean_rev_s = mean(heard())?;
             mean(heard().map(|speed_rev_s| (speed_rev_s - mean_rev_s).powi(2)))
@@ -316,7 +316,8 @@ impl Comparison<'_> {
         costs.min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(Place { offset_s: coarse_s, cost: f64::INFINITY })
     }
 
-    /// Change of the offset from the first to the second half, over the time between their middles.
+    /// Change of the offset from the first to the second half, over the time between their middles. `None` where the log covers too little of one
+    /// half.
     fn clock_rate_share(&self, offset_s: f64) -> Option<f64> {
         let points = self.tracks.first()?;
         let (from_s, to_s) = (points.first()?.time_s, points.last()?.time_s);
@@ -325,14 +326,16 @@ impl Comparison<'_> {
         }
         let half = |is_second: bool| -> Vec<&[TrackPoint]> {
             let cut = |track: &&[TrackPoint]| track.partition_point(|point| point.time_s < 0.5 * (from_s + to_s));
-            let part = |track: &&'_ [TrackPoint]| cut(track);
             self.tracks
                 .iter()
-                .map(|track| if is_second { &track[part(track)..] } else { &track[..part(track)] })
+                .map(|track| if is_second { &track[cut(track)..] } else { &track[..cut(track)] })
                 .collect()
         };
-        let offset_of = |tracks: &[&[TrackPoint]]| Comparison { tracks, ..*self }.fine_place(offset_s).offset_s;
-        Some((offset_of(&half(true)) - offset_of(&half(false))) / (0.5 * (to_s - from_s)))
+        let offset_of = |tracks: &[&[TrackPoint]]| {
+            let place = Comparison { tracks, ..*self }.fine_place(offset_s);
+            place.cost.is_finite().then_some(place.offset_s)
+        };
+        Some((offset_of(&half(true))? - offset_of(&half(false))?) / (0.5 * (to_s - from_s)))
     }
 
     fn rotors(&self, offset_s: f64) -> Vec<VerifiedRotor> {

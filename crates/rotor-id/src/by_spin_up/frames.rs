@@ -1,7 +1,7 @@
 //! Spectra of short frames, to be read at any frequency, and the power of the noise between the lines.
 
 use hovertone_signal::fft::TransformNumber;
-use hovertone_signal::spectrogram::hann_weights;
+use hovertone_signal::spectrogram::{hann_weights, smooth_at_least};
 use hovertone_signal::statistics::median;
 use realfft::RealToComplex;
 use realfft::num_complex::Complex;
@@ -53,7 +53,7 @@ impl FrameCollector {
     pub(super) fn new(sample_rate_hz: f64, start_s: f64, high_hz: f64) -> Self {
         let length = (FRAME_S * sample_rate_hz).round() as usize;
         let window: Vec<f64> = hann_weights(length).collect();
-        let padded = (BINS_PER_CELL * length).next_power_of_two();
+        let padded = smooth_at_least(BINS_PER_CELL * length, 2);
         let bin_hz = sample_rate_hz / padded as f64;
         Self {
             sample_rate_hz,

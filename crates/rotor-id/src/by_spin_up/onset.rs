@@ -1,7 +1,7 @@
 //! When a rotor becomes audible: the change point of its power over time.
 
 use super::frames::{FRAME_S, HOP_S};
-use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
+use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, median};
 
 /// Power of a rotor, as a share of its power in the hover, above which it is audible. *Decision.*
 pub(super) const AUDIBLE_SHARE: f64 = 0.1;
@@ -94,7 +94,7 @@ fn running_median(values: &[f64]) -> Vec<f64> {
     (0..values.len())
         .map(|at| {
             let part = &values[at.saturating_sub(reach)..(at + reach + 1).min(values.len())];
-            median(part).or_else(|| mean(part)).unwrap_or(0.0)
+            median(part).unwrap_or(0.0)
         })
         .collect()
 }

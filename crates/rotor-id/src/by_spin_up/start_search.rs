@@ -235,7 +235,7 @@ fn anchor(tracked: &[Option<RotorState>], hover_powers: &[f64]) -> Option<usize>
         let audible = frames.iter().flatten().filter(|state| are_audible(state)).count();
         frames[0].as_ref().is_some_and(are_audible) && audible as f64 >= ANCHOR_SHARE_MIN * ANCHOR_FRAMES as f64
     };
-    (0..tracked.len().saturating_sub(ANCHOR_FRAMES)).find(is_anchor)
+    (0..(tracked.len() + 1).saturating_sub(ANCHOR_FRAMES)).find(is_anchor)
 }
 
 /// A frame with the speeds of the rotors that have started by then.

@@ -12,8 +12,8 @@ use crate::speed_curve::SpeedCurve;
 use block_lines::{BlockLines, BlockSums, LinePower};
 use hovertone_analysis::{Outcome, RotorCondition, ShaftLine, SpeedAnalysis, TrackPoint};
 use hovertone_rotor_speed::{ToneConfig, blades_known};
-use hovertone_signal::SignalError;
 use hovertone_signal::passes::{Passes, StretchListener};
+use hovertone_signal::{RECORDED_RATE_SHARE, SignalError};
 use std::f64::consts::{LN_10, TAU};
 
 /// Length of a block, in s: separates the shaft lines of rotors half a turn per second apart, and a hover of ten seconds has two
@@ -23,8 +23,6 @@ const BLOCK_S: f64 = 4.0;
 const LENGTH_TOLERANCE: f64 = 1e-9;
 /// Highest multiple of the blade pass. *Decision.*
 const BLADE_PASS_LINES: u32 = 4;
-/// Highest frequency, as a share of the sample rate: a line and the noise half an order above it lie below half the rate. *Numeric.*
-const SAMPLE_RATE_SHARE: f64 = 0.45;
 /// A line is audible if its mean power over n blocks exceeds `1 + AUDIBLE_OVER_NOISE / √n` times the power of the noise. *Decision.*
 const AUDIBLE_OVER_NOISE: f64 = 8.0;
 /// A line is missing if other rotors' lines of its order have this factor more than the power at which it would be audible. *Decision.*
@@ -89,7 +87,7 @@ impl ConditionListener {
     fn new(sample_rate_hz: f64, tracks: &[&[TrackPoint]], blades: u32) -> Self {
         let curves: Vec<SpeedCurve> = tracks.iter().map(|track| SpeedCurve::through(track)).collect();
         let fastest_rev_s = curves.iter().map(|curve| curve.mean_rad_s / TAU).fold(0.0, f64::max);
-        let below_nyquist = (SAMPLE_RATE_SHARE * sample_rate_hz / fastest_rev_s.max(f64::MIN_POSITIVE)) as u32;
+        let below_nyquist = (RECORDED_RATE_SHARE * sample_rate_hz / fastest_rev_s.max(f64::MIN_POSITIVE)) as u32;
         Self {
             sample_rate_hz,
             blades,

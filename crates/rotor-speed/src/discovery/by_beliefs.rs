@@ -119,8 +119,7 @@ fn propellers(sample_rate_hz: f64, config: &Config, discovery: &Discovery) -> Ve
     let direct = shares.into_iter().filter_map(|(blades, share)| {
         let tone = ToneConfig { order: Order::from_blades(blades).ok()?, ..config.tone.clone() };
         let speeds_rev_s = search_range_rev_s(&tone, sample_rate_hz).ok()?;
-        let is_range = speeds_rev_s.start() < speeds_rev_s.end();
-        is_range.then_some(WantedPropeller { lines: RotorLines::of_blades(blades), share, speeds_rev_s })
+        Some(WantedPropeller { lines: RotorLines::of_blades(blades), share, speeds_rev_s })
     });
     direct.chain(geared_propellers(sample_rate_hz, &config.tone, known, discovery.config.gear_share)).collect()
 }
@@ -152,7 +151,7 @@ fn readings_of(beliefs: &Beliefs, discovery: &Discovery) -> Vec<Reading> {
             }
         }
     }
-    readings.iter_mut().for_each(|reading| rule_out(reading, known, config));
+    readings.iter_mut().for_each(|reading| rule_out(reading, known));
     normalise(&mut readings);
     readings.retain(|reading| reading.plausibility == 0.0 || reading.plausibility >= config.plausible_min);
     readings

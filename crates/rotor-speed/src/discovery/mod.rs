@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::pipeline::{passes_after_survey, passes_of_speed, speed_of_heard_rotor};
 use crate::stages::{HeardRotor, Silence, Surveyed, at_ratio, heard_instead, survey_from_source};
 use crate::survey::{RowSettings, RowsBuilder, Survey};
-use crate::tone::{DiscoveryConfig, families_from_surveys, reading_at};
+use crate::tone::{DiscoveryConfig, families_from_surveys, reading_at, search_range_rev_s};
 use by_beliefs::{Believed, BelievedSpeed, SAME_LINE_SHARE};
 use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, Remark, SpeedAnalysis, SpeedEstimate, ToneFamily};
 use hovertone_signal::SignalSource;
@@ -71,10 +71,10 @@ impl FoundSpeed {
 /// and the speed of the analysis is only that of the first. The families of lines are listed beside it; they decide nothing.
 ///
 /// `config` gives all settings but the tone's order, blades and range of speeds; a band in it is where the fundamental is
-/// looked for. Reads the source twice.
+/// looked for. Makes the passes over the source that [`passes_of_speed`] names.
 ///
 /// # Errors
-/// Settings that mean nothing, a source that fails. That there is no rotor is an outcome.
+/// Settings that mean nothing, a band above half the sample rate, a source that fails. That there is no rotor is an outcome.
 pub fn tones_from_source(
     source: &mut dyn SignalSource,
     config: &Config,
@@ -92,6 +92,10 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     config.check()?;
     discovery.config.check()?;
     discovery.known.check()?;
+    if config.tone.band_hz.is_some() {
+        // a band that the recording cannot hold is refused before a pass is made
+        search_range_rev_s(&config.tone, passes.sample_rate_hz())?;
+    }
     let mut detail = discovery.wants_all.then(|| {
         let start_s = config.span.start_s(passes.start_s());
         let window_s = discovery.config.detail_window_s;
@@ -213,4 +217,19 @@ fn config_for(config: &Config, reading: &Reading) -> Config {
     config.tone.speed_min = RotorSpeed::from_rad_s(reading.speed.rad_s() / OTHER_SPEED_FACTOR);
     config.tone.speed_max = RotorSpeed::from_rad_s(reading.speed.rad_s() * OTHER_SPEED_FACTOR);
     config
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tone::ToneConfig;
+    use hovertone_signal::Signal;
+
+    #[test]
+    fn a_band_that_the_recording_cannot_hold_is_refused() {
+        let tone = ToneConfig { band_hz: Some((3000.0, 5000.0)), ..ToneConfig::of_order(Order::new(1.0).unwrap()) };
+        let mut source = Signal::new(vec![0.0; 8000], 8000.0);
+        let found = tones_from_source(&mut source, &Config::for_tone(tone), &Discovery::default(), &mut |_| {});
+        assert!(matches!(found, Err(Error::BandAboveNyquist { .. })));
+    }
 }

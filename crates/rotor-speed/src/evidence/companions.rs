@@ -4,23 +4,23 @@ use super::excess::{Excess, Looks};
 use super::own_lines::{OwnPropeller, is_apart, loudness_db, own_lines_nats};
 use super::path::best_path;
 use super::rotor_lines::RotorLines;
-use super::second_look::path_in_long_frames;
+use super::second_look::{STEP, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::{HARMONICS, VoteTable};
 use hovertone_signal::statistics::mean;
+use hovertone_vehicle::ROTOR_STD_SHARE;
+use std::f64::consts::SQRT_2;
 
 /// Largest distance of a rotor of the same vehicle, as a logarithm of the speed: those of real quadrotors differ by up to 22 % from slowest to
 /// fastest. *Physics.*
 const DISTANCE_MAX: f64 = 0.22;
-/// Standard deviation of that distance: that of a rotor from the mean of all is 6 %, and this is √2 times as much. *Decision.*
-const DISTANCE_STD: f64 = 0.085;
+/// Standard deviation of that distance: of two rotors that are independent. *Physics.*
+const DISTANCE_STD: f64 = SQRT_2 * ROTOR_STD_SHARE;
 /// Smallest distance of another rotor that is looked for, as a logarithm of the speed: the speed of one rotor is not known better in a frame.
 /// *Decision.*
 pub(crate) const COMPANION_DISTANCE_MIN: f64 = 0.01;
 /// Largest distance of a rotor from the middle of all, as a logarithm of the speed. *Physics.*
 const HALF_RANGE_MAX: f64 = DISTANCE_MAX / 2.0;
-/// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
-const STEP: f64 = 1e-3;
 
 /// What is heard of other rotors of the vehicle beside one.
 #[derive(Clone, Copy, Debug)]

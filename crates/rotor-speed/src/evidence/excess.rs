@@ -5,8 +5,8 @@ use super::level_table::{Level, LevelTable, UNKNOWN};
 use super::near_floor::{NearFloor, levels_over};
 use super::pauses::{drop_rests, quiet_frames};
 use super::rounding::Rounding;
-use hovertone_signal::SteadyLines;
 use hovertone_signal::spectrogram::{Stft, Window};
+use hovertone_signal::{RECORDED_RATE_SHARE, SteadyLines};
 use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
 use std::sync::Arc;
@@ -21,13 +21,11 @@ pub(super) const HOP_S: f64 = 0.05;
 const LONG_HOPS: u32 = 2;
 /// Bins to the resolution of a frame. *Numeric.*
 const ZERO_PAD_FACTOR: u32 = 4;
-/// Highest frequency as a share of the sample rate: filters of recorders end below one half. *Decision.*
-const RATE_SHARE_MAX: f64 = 0.45;
 /// Noise that is added to power and floor, as a share of the mean power of the frame: codecs leave holes in the spectrum. *Numeric.*
 const ADDED_NOISE_SHARE: f64 = 1e-7;
-/// Bins to either side among which a line is the highest: the main lobe of the window. *Numeric.*
-const LOBE_BINS: usize = 2;
-/// Share of the highest neighbour below which a bin is a skirt of it, and counts as noise at most. *Numeric.*
+/// Bins to either side whose highest decides whether a bin is a skirt: half a resolution, well within the main lobe of a line. *Numeric.*
+const SKIRT_BINS: usize = 2;
+/// Share of the highest of these below which a bin is a skirt of it, and counts as noise at most. *Numeric.*
 const SKIRT_SHARE: f64 = 0.5;
 /// Distances at which the side lobes of a line are looked for, in bins: from the end of its main lobe. *Numeric.*
 const SIDE_LOBES: Range<usize> = 8..40;
@@ -180,7 +178,7 @@ struct Section {
 impl ExcessBuilder {
     /// Sections of a recording that starts at `start_s`, up to a highest frequency, where these lines are left out of the sound.
     pub(crate) fn new(sample_rate_hz: f64, start_s: f64, hz_max: f64, left_out: Option<SteadyLines>) -> Self {
-        let hz_max = hz_max.min(RATE_SHARE_MAX * sample_rate_hz);
+        let hz_max = hz_max.min(RECORDED_RATE_SHARE * sample_rate_hz);
         let rounding = Rounding::default();
         Self { start_s, sample_rate_hz, hz_max, samples: 0, stride: 1, sections: Vec::new(), rounding, left_out }
     }
@@ -322,7 +320,7 @@ fn over_floor(power: &[f64], floors: &[f64], added: f64) -> Vec<f64> {
 /// For each bin, the power over the floor below which it is a skirt or a side lobe of a line nearby.
 fn skirt_limits(excess: &[f64]) -> Vec<f64> {
     let highest_near = |bin: usize| {
-        let near = bin.saturating_sub(LOBE_BINS)..(bin + LOBE_BINS + 1).min(excess.len());
+        let near = bin.saturating_sub(SKIRT_BINS)..(bin + SKIRT_BINS + 1).min(excess.len());
         excess[near].iter().copied().fold(0.0, f64::max)
     };
     let mut limits: Vec<f64> = (0..excess.len()).map(|bin| SKIRT_SHARE * highest_near(bin)).collect();

@@ -12,8 +12,8 @@ const LINE_STEPS: usize = 141;
 pub(super) const STEP_DB: usize = 3;
 /// Steps of a measured level to a dB. *Numeric.*
 const STEPS_PER_DB: f64 = 16.0;
-/// Number of these steps: to 90 dB. *Numeric.*
-const MEASURED_STEPS: usize = 1921;
+/// Number of these steps: to 60 dB, the highest level. *Numeric.*
+const MEASURED_STEPS: usize = 1441;
 /// Deviations of a line from its mean level over which the tables are integrated, in standard deviations. *Numeric.*
 const DEVIATIONS: [f64; 13] = [-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 /// Range of levels that a line of something else may have, dB. *Decision.*

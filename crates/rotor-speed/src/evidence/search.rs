@@ -32,7 +32,7 @@ const SAME_POINTS: usize = 2;
 const JUMP_MIN: f64 = 0.223;
 /// A comb that is slower by this factor is no voice beside a rotor: it has a line near any line of several rotors. *Decision.*
 const SLOWER_MAX: f64 = 0.25;
-/// Largest difference of the logarithms of the speeds of two rotors of one vehicle. *Decision.*
+/// Speeds nearer than this, as a difference of their logarithms, are one hypothesis: other rotors, or other moments, of one vehicle. *Decision.*
 pub(super) const ROTORS_APART: f64 = 0.14;
 
 /// The votes of all frames for all speeds of a rotor that makes these lines.

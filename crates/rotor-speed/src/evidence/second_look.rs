@@ -10,7 +10,7 @@ use super::votes::{VotePlaces, VoteTable, votes_of_frame};
 /// Largest distance of the paths, as a logarithm of the speed. *Decision.*
 const NEAR: f64 = 0.03;
 /// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
-const STEP: f64 = 1e-3;
+pub(super) const STEP: f64 = 1e-3;
 /// The same where a gear mesh is followed: a quarter of that width at its third harmonic. *Numeric.*
 const MESH_STEP: f64 = 2e-4;
 

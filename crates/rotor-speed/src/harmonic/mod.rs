@@ -46,7 +46,7 @@ pub(crate) use join::{EndBlock, joined_variance_turns2};
 use partition::{Partition, best_partition, blocks_between, first_partition, likelihood_min, straight_partition};
 use speed_map::{Centroid, FRAME_HOPS, LinePowers, STRONG_POWER_MIN, SpeedMap};
 use speed_path::{SpeedPath, SpeedPoint};
-pub(crate) use track::{HarmonicBlock, HarmonicTrack, LENGTH_POWER, LineRecord, SAME_TIME_S};
+pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord, SAME_TIME_S};
 
 /// Smallest ratio of the highest power in the band of a line to the power on the path at which the band holds a foreign sound.
 /// *Decision.*

@@ -10,7 +10,7 @@ use realfft::num_complex::Complex;
 const MIDDLE_SHARE: f64 = 0.8;
 /// Length of the frames of the noise spectrum, in hops of the filter bank: 0.34 s, so that a line of varying frequency covers
 /// few bins. *Numeric.*
-const FRAME_HOPS: usize = 4;
+pub(super) const NOISE_FRAME_HOPS: usize = 4;
 
 /// Independent frames that each further frame adds: Hann frames that overlap by half share part of their sound (Welch, IEEE
 /// Trans. Audio and Electroacoustics 15, 1967). *Numeric.*
@@ -27,7 +27,7 @@ pub(crate) struct NoiseMeter {
 
 impl NoiseMeter {
     pub(crate) fn new(hop_samples: usize, planner: &mut ComplexPlanner) -> Self {
-        let length = FRAME_HOPS * hop_samples;
+        let length = NOISE_FRAME_HOPS * hop_samples;
         Self { frames: FrameTransform::new(length, 1, planner), power: vec![0.0; length], middle: Vec::new() }
     }
 

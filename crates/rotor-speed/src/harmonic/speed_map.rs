@@ -35,7 +35,7 @@ const LOBE_CELLS: f64 = 2.5;
 const CENTROID_SHARE_MIN: f32 = 0.4;
 /// Equivalent noise bandwidth of the Hann window, in resolution cells (Harris, Proc. IEEE 66, 1978): a sine of amplitude A in a frame
 /// of N samples with the noise variance V has J = A² N / (1.5 V). *Physics.*
-const HANN_NOISE_CELLS: f64 = 1.5;
+pub(crate) const HANN_NOISE_CELLS: f64 = 1.5;
 
 /// The powers of one line in the frames of a chunk. Each is a mean over the frames of a power over the mean power of noise.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,14 +2,14 @@
 
 use hovertone_analysis::Span;
 
-/// Rounding error of the times at which blocks meet, s. *Numeric.*
+/// Rounding error of the times at which blocks or rows meet, s. *Numeric.*
 pub(crate) const SAME_TIME_S: f64 = 1e-6;
 
 /// Largest number of blocks of a track: half a hop each, they last for 11 minutes. *Numeric.*
 const BLOCKS_MAX: usize = 1 << 14;
 
 /// The uncertainty of a mean speed falls with the length of a block to this power (Rife and Boorstyn 1974). *Physics.*
-pub(crate) const LENGTH_POWER: f64 = 1.5;
+const LENGTH_POWER: f64 = 1.5;
 
 /// The speed in one block of sound.
 #[derive(Clone, Copy, Debug)]

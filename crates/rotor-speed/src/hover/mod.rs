@@ -10,7 +10,7 @@ pub use settings::{HoverConfig, HoverPart};
 use crate::survey::Survey;
 use crate::tone::CombMap;
 use hovertone_analysis::{Cut, CutReason, Hover, Span};
-use hovertone_signal::statistics::median;
+use hovertone_signal::statistics::{mean_by_square, median};
 
 /// Largest part of a steady span that is cut away at an edge, as a share of the span. *Decision.*
 const EDGE_SHARE_MAX: f64 = 0.2;
@@ -100,9 +100,9 @@ fn verdicts_of_rows(survey: &Survey, map: &CombMap, wanted: &WantedHover, config
         .clone()
         .map(|row| map.best_near(row, speed_rev_s, half_width_share).map_or(0.0, |(_, score)| score.max(0.0)))
         .collect();
-    // typical score of the rows with the tone, even where these are few: a mean weighted by the square of the score
-    let (cubes, squares) = near_db.iter().fold((0.0, 0.0), |(c, s), d| (c + d.powi(3), s + d.powi(2)));
-    let score_db_min = if squares > 0.0 { config.comb_share_min * cubes / squares } else { f64::INFINITY };
+    // typical score of the rows with the tone, even where these are few
+    let typical_db = mean_by_square(near_db.iter().copied());
+    let score_db_min = typical_db.map_or(f64::INFINITY, |typical_db| config.comb_share_min * typical_db);
     let level_db: Vec<f64> = survey.rows.iter().map(|row| row.level_db(survey.bin_hz)).collect();
     let with_tone: Vec<f64> =
         rows.clone().filter(|&row| near_db[row] >= score_db_min).map(|row| level_db[row]).collect();

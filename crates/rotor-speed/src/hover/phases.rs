@@ -1,5 +1,6 @@
 //! Cuts with other speeds → phases of flight: take-off, landing, manoeuvre.
 
+use crate::harmonic::SAME_TIME_S;
 use crate::survey::Survey;
 use crate::tone::CombMap;
 use hovertone_analysis::{Cut, CutReason, Hover, Span};
@@ -16,12 +17,10 @@ const CLEAR_SHARE: f64 = 0.7;
 /// Smallest comb score of a clear row, dB: with a lower score, the best speed of a row is wrong by chance, also with a faint rotor.
 /// *Decision.*
 const CLEAR_DB_MIN: f64 = 10.0;
-/// Rounding error of the times at which rows meet, s. *Numeric.*
-const SAME_TIME_S: f64 = 1e-6;
 
 /// Length of the rows with clear tones outside the hover that are not held and belong to no take-off or landing, s.
 pub(crate) fn restless_s(hover: &Hover, survey: &Survey, map: &CombMap) -> f64 {
-    let middle_s = |row: usize| (survey.rows[row].span.from_s + survey.rows[row].span.to_s) / 2.0;
+    let middle_s = |row: usize| survey.rows[row].span.middle_s();
     let best_db = |row: usize| map.best_of_row(row).map_or(0.0, |(_, score)| score);
     let in_hover = |row: usize| hover.segments.iter().any(|segment| segment.contains(middle_s(row)));
     let rows = 0..survey.rows.len();

@@ -1,6 +1,7 @@
 //! Which lines are followed, and in which frames.
 
 use crate::tone::{ToneConfig, blades_known};
+use hovertone_signal::RECORDED_RATE_SHARE;
 use std::ops::Range;
 
 /// Fastest and slowest speed that is followed, over the speed that was heard: a bench steps by less. *Decision.*
@@ -19,8 +20,6 @@ const BLADE_PASS_HZ_MAX: f64 = 4000.0;
 const MESH_LINES: f64 = 3.3;
 /// Lines at most. *Numeric.*
 const LINES_MAX: u32 = 20;
-/// Highest line as a share of the sample rate: the filter of the recorder. *Physics.*
-const RATE_SHARE_MAX: f64 = 0.45;
 /// Frames per length of a frame. *Numeric.*
 const HOPS_PER_FRAME: f64 = 10.0;
 
@@ -56,7 +55,7 @@ impl TrackedLines {
         let of_mesh_hz = MESH_LINES * order * (range_rev_s.start * range_rev_s.end).sqrt();
         Self {
             order,
-            hz_max: BLADE_PASS_HZ_MAX.max(of_mesh_hz).min(RATE_SHARE_MAX * sample_rate_hz),
+            hz_max: BLADE_PASS_HZ_MAX.max(of_mesh_hz).min(RECORDED_RATE_SHARE * sample_rate_hz),
             slowest_rev_s: range_rev_s.start,
             fastest_rev_s: range_rev_s.end,
             frame_s,

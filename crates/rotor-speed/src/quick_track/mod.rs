@@ -49,7 +49,7 @@ pub struct QuickStretch {
     pub speed_rev_s: Vec<f64>,
 }
 
-/// The speed in short frames of rotors that were heard at a speed; two passes. Speeds from half of it to twice it are followed.
+/// The speed in short frames of rotors that were heard at a speed; two passes. Speeds from `heard_rev_s` / 1.9 to 1.9 `heard_rev_s` are followed.
 ///
 /// # Errors
 /// A source that fails.

@@ -120,6 +120,9 @@ impl StretchListener for PieceListener<'_> {
     }
 
     fn push(&mut self, samples: &[f32]) {
+        if self.path.time_s.is_empty() {
+            return;
+        }
         self.samples.extend_from_slice(samples);
         let from = (PIECE_S_MIN * self.sample_rate_hz) as usize;
         let to = (PIECE_S_MAX * self.sample_rate_hz) as usize;
@@ -195,4 +198,24 @@ fn heard_speeds(speeds: Vec<f64>, shifts: &FrameShifts) -> Vec<Option<f64>> {
         mean(&heights[from..to]).is_some_and(|height| height > HEIGHT_MIN)
     };
     speeds.into_iter().enumerate().map(|(frame, speed)| is_heard(frame).then_some(speed)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tone::ToneConfig;
+    use hovertone_vehicle::Order;
+
+    #[test]
+    fn along_a_path_without_points_nothing_is_heard() {
+        let rate_hz = 8000.0;
+        let lines = TrackedLines::of_heard(&ToneConfig::of_order(Order::new(2.0).unwrap()), 60.0, rate_hz);
+        let path = SpeedPath::default();
+        let mut pieces = PieceListener::new(&lines, &path, Approach::Near, rate_hz);
+        pieces.restart(0.0, 6.0);
+        // longer than the longest piece
+        let sound = vec![0.1; 48_000];
+        pieces.push(&sound);
+        assert!(pieces.finish().stretches.is_empty());
+    }
 }

@@ -7,7 +7,7 @@ use super::scores::worth;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks, phasors};
 use crate::harmonic::chunks::Chunk;
 use crate::harmonic::demodulation::{Line, LinePlace};
-use crate::harmonic::speed_map::STRONG_POWER_MIN;
+use crate::harmonic::speed_map::{HANN_NOISE_CELLS, STRONG_POWER_MIN};
 use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::channels::TICKS_PER_HOP;
 use hovertone_signal::spectrogram::hann_weights;
@@ -19,8 +19,6 @@ pub(super) const RESOLVED_CELLS: f64 = 1.25;
 const FAINT_SHARE: f64 = 0.25;
 /// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them. *Numeric.*
 const GHOST_SHARE: f64 = 1.0 / 100.0;
-/// Noise bandwidth of a Hann window, in resolution cells (Harris 1978). *Physics.*
-const HANN_NOISE_CELLS: f64 = 1.5;
 /// A line that is apart from all others in less than this share of a chunk is not heard for its speed. *Decision.*
 const APART_SHARE_MIN: f64 = 0.5;
 

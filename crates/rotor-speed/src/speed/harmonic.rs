@@ -1,6 +1,6 @@
 //! Blocks of the harmonic likelihood → mean shaft speed over a span of time, and the track of the speed.
 
-use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, LENGTH_POWER, SAME_TIME_S, joined_variance_turns2};
+use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, SAME_TIME_S, joined_variance_turns2};
 use hovertone_analysis::{HarmonicSpeed, Method, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};
@@ -71,7 +71,7 @@ impl HarmonicTrack {
                         mean_hz: line.order * mean_rev_s,
                         std_hz: spread_rev_s.map(|spread| line.order * spread),
                         frame_count: points.len(),
-                        weight: line.weight() / weights,
+                        weight: line.weight() / weights.max(f64::MIN_POSITIVE),
                     })
                 })
                 .collect(),
@@ -215,9 +215,8 @@ fn steps_of(run: &[Part]) -> impl Iterator<Item = f64> {
 fn turns_variance(run: &[Part], is_edge: &impl Fn(f64) -> bool) -> f64 {
     let (Some(first), Some(last)) = (run.first(), run.last()) else { return 0.0 };
     if run.len() == 1 {
-        // the speed of a part of a block is less certain than the speed of the block
-        let longer = first.block.span.length_s() / first.span.length_s();
-        return (first.block.std_uncertainty_rev_s * longer.powf(LENGTH_POWER) * first.span.length_s()).powi(2);
+        let part = first.block.within(first.span);
+        return part.map_or(0.0, |part| (part.std_uncertainty_rev_s * part.span.length_s()).powi(2));
     }
     let ends = [(first, first.span.from_s), (last, last.span.to_s)].map(|(part, end_s)| EndBlock {
         length_s: part.block.span.length_s(),

@@ -5,7 +5,7 @@ use crate::rotors::{RotorTrack, RotorTracks};
 use crate::speed::{BudgetConfig, with_budget};
 use hovertone_analysis::{Method, RotorEstimate, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std};
-use hovertone_vehicle::{Order, RotorSpeed};
+use hovertone_vehicle::{Order, ROTOR_STD_SHARE, RotorSpeed};
 use std::f64::consts::{SQRT_2, TAU};
 
 /// Smallest share of the time in which a resolved rotor is heard, and separated from the others. *Decision.*
@@ -22,9 +22,6 @@ const FAINT_SHARE_MIN: f64 = 0.2;
 /// 2 % apart were 0.011 % in 37 flights, where this gives 0.063 %, and 0.08 % in 16 flights with ten times the gusts and commands.
 /// *Decision.*
 const BOBBING_RESOLUTIONS: f64 = 0.7;
-/// Standard deviation of the speed of a rotor that is not separated, from the mean of the separated ones, as a share: the rotors of real
-/// quadrotors differ by 13 to 22 % from slowest to fastest. *Decision.*
-const UNKNOWN_SPREAD_SHARE: f64 = 0.06;
 
 /// Smallest distance in time of two points of a track with a gap between them, s. *Decision.*
 const GAP_S_MAX: f64 = 0.1;
@@ -165,8 +162,7 @@ impl RotorTracks {
             .iter()
             .map(|(rotor, ..)| (self.doubt_share(rotor, span) * unknown_rotor_rev_s / heard_count).powi(2))
             .sum();
-        let unknown_rev_s =
-            if self.would_hear_faint() { unknown_rotor_rev_s } else { UNKNOWN_SPREAD_SHARE * mean_rev_s };
+        let unknown_rev_s = if self.would_hear_faint() { unknown_rotor_rev_s } else { ROTOR_STD_SHARE * mean_rev_s };
         let of_unresolved = (count - resolved).max(0.0).sqrt() / count * unknown_rev_s;
         let of_others = self.another_share() * SQRT_2 / (count + 2.0) * unknown_rev_s;
         let rotors_std_share = of_unresolved.hypot(of_others).hypot(self.bobbing_std_rev_s()) / mean_rev_s;
@@ -198,6 +194,11 @@ impl RotorTracks {
     /// look like others.
     fn doubt_share(&self, rotor: &RotorTrack, span: Option<&Span>) -> f64 {
         self.share_of(&rotor.lost, span).max(self.close_s / self.length_s.max(f64::MIN_POSITIVE))
+    }
+
+    /// Number of rotors in the mean of all.
+    pub(crate) fn in_mean(&self) -> usize {
+        self.heard(None).count()
     }
 
     /// The rotors that are resolved in a span of time.

@@ -60,19 +60,20 @@ impl Candidates {
         })
     }
 
-    /// The middle of the speeds of all rotors in a hover, near one of them: the evidence hears the loudest rotor, and the lines of all are followed.
-    pub(crate) fn middle_rev_s(&self, surveyed: &Surveyed, hover: &Hover, speed_rev_s: f64, config: &Config) -> f64 {
+    /// The middle of the speeds of all rotors in a hover, near the leading one: the evidence hears the loudest rotor, and the lines of all are
+    /// followed.
+    pub(crate) fn middle_rev_s(&self, surveyed: &Surveyed, hover: &Hover, config: &Config) -> f64 {
         let is_hover = |span: &Span| hover.segments.iter().any(|segment| segment.contains(span.middle_s()));
         let rows = surveyed.survey.rows.iter().enumerate().filter(|(_, row)| is_hover(&row.span)).map(|(row, _)| row);
-        self.map.middle_near(rows, speed_rev_s, config.tone.band_half_width_share)
+        self.map.middle_near(rows, self.leading_rev_s, config.tone.band_half_width_share)
     }
 
-    /// The speed around which the rotors are separated, near one of them: the lines of a mesh stand apart, so that the loudest rotor is not in the
-    /// middle of all.
-    pub(crate) fn rotors_rev_s(&self, speed_rev_s: f64, config: &Config) -> f64 {
+    /// The speed around which the rotors are separated, near the leading one: the lines of a mesh stand apart, so that the loudest rotor is not in
+    /// the middle of all.
+    pub(crate) fn rotors_rev_s(&self, config: &Config) -> f64 {
         match blades_of_tone(&config.tone) {
-            Some(_) => speed_rev_s,
-            None => self.map.refined_rev_s(speed_rev_s),
+            Some(_) => self.leading_rev_s,
+            None => self.map.refined_rev_s(self.leading_rev_s),
         }
     }
 

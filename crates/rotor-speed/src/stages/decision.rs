@@ -9,7 +9,7 @@ use crate::detection::{no_series, not_held_reason, or_mains_hum};
 use crate::evidence::COMPANION_DISTANCE_MIN;
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use hovertone_analysis::{Hover, Method, NoTone, Outcome, Reading, SpeedAnalysis, Warning, WeighedSpeed};
+use hovertone_analysis::{Hover, NoTone, Outcome, Reading, SpeedAnalysis, Warning, WeighedSpeed};
 use hovertone_signal::passes::Passes;
 
 /// A candidate that is one rotor, or several.
@@ -46,10 +46,9 @@ pub(crate) fn decision_from_lines(
         let instead = heard_instead(surveyed, sample_rate_hz, config);
         silence(or_mains_hum(no_series(&config.tone, instead), &surveyed.survey))
     };
-    let wants_rotors = config.methods().any(|method| method == Method::Separated);
+    let wants_rotors = config.wants_rotors();
     // a faint rotor must keep its phase; where several sound, each keeps its own
-    let keeps_phase =
-        !candidates.is_faint || lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
+    let keeps_phase = !candidates.is_faint || lines.keep_phase(hover, config);
     if !keeps_phase && !wants_rotors {
         return Err(lost().into());
     }

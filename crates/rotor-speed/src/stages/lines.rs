@@ -21,6 +21,13 @@ pub(crate) struct Lines {
     pub(crate) warnings: Vec<Warning>,
 }
 
+impl Lines {
+    /// Whether the lines keep their phase in most of the hover.
+    pub(crate) fn keep_phase(&self, hover: &Hover, config: &Config) -> bool {
+        self.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min
+    }
+}
+
 /// Analyses the hover at every frame length of the ladder, and all lines together, in one pass.
 ///
 /// # Errors

@@ -27,8 +27,7 @@ pub(crate) fn speeds_from_decision(
     let rotor_spread_share = spread_share.max(weights.difference_share / 2.0);
     let config = &Config { budget: BudgetConfig { rotor_spread_share, ..config.budget }, ..config.clone() };
     let tracks: Vec<Track> = config.methods().filter_map(|method| weights.track(method, order)).collect();
-    let keeps_phase = lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
-    let one_line_count = config.rotors.count_of_one_line(keeps_phase);
+    let one_line_count = config.rotors.count_of_one_line(lines.keep_phase(&hover, config));
     let heard_by =
         HeardBy { weights: &weights, tracks: &tracks, lines: &lines, rotor_tracks: &rotor_tracks, one_line_count };
     let speeds = heard_by.speeds_in(None, hover.length_s(), config);
@@ -45,7 +44,7 @@ pub(crate) fn speeds_from_decision(
     warnings.extend(warnings_of_hover(&hover));
     warnings.extend(warnings_of_speed(&lines.ridges, &speeds));
     let is_of_all = speeds.first().is_some_and(|speed| speed.method == Method::Separated);
-    let wants_rotors = config.methods().any(|method| method == Method::Separated);
+    let wants_rotors = config.wants_rotors();
     // where rotors were to be separated, another warning says it
     let stands_for_unknown = !config.rotors.is_count_known && one_line_count > 1;
     if !is_of_all && stands_for_unknown && (config.rotors.count == 1 || !wants_rotors) {
@@ -59,7 +58,7 @@ pub(crate) fn speeds_from_decision(
     }
     warnings.extend(warning_of_rotors(
         &rotors,
-        &speeds,
+        if speeds.iter().any(|speed| speed.method == Method::Separated) { rotor_tracks.in_mean() } else { 0 },
         if wants_rotors { config.rotors.count } else { 1 },
         !config.rotors.is_count_known,
         config.budget.rotor_spread_share,

@@ -4,7 +4,7 @@ use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, EvidenceConfig, ExcessBuilder, Looks, RotorLines, WantedRotor, beliefs_from_looks};
-use crate::survey::{HumFinder, RowsBuilder, Survey, SurveyBuilder};
+use crate::survey::{HumFinder, RowsBuilder, Survey};
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
 
@@ -89,18 +89,18 @@ fn survey_from_pass(
 ) -> Result<Surveyed, Error> {
     let mut from_s = config.span.start_s(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
-    let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
+    let mut rows = RowsBuilder::new(passes.sample_rate_hz(), from_s, config.hover.survey().coarse_rows());
     let hz_max = RotorLines::of_tone(&config.tone).hz_max();
     let mut excess = ExcessBuilder::new(passes.sample_rate_hz(), from_s, hz_max, passes.left_out().cloned());
     let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
         Piece::Samples(samples) => {
-            builder.push(samples);
+            rows.push(samples);
             excess.push(samples);
             beside(samples);
         }
         Piece::Heard(_) => {}
     })?;
     let heard = Span { from_s, to_s: to_s.max(from_s) };
-    Ok(Surveyed { survey: builder.finish(to_s), heard, end_s: to_s, looks: excess.finish() })
+    Ok(Surveyed { survey: Survey::of_rows(rows.finish(to_s)), heard, end_s: to_s, looks: excess.finish() })
 }

@@ -21,12 +21,12 @@ const ROW_ERROR_BINS: f64 = 0.8;
 const ROW_SHARE: f64 = 0.0005;
 /// Smallest height of a line of hum over its surroundings, dB. *Decision.*
 const OVER_DB_MIN: f64 = 10.0;
+/// The same for further lines, once there is hum, dB. *Decision.*
+const WEAK_OVER_DB_MIN: f64 = 5.0;
 /// Smallest power of a line, re a sine of full scale: the rounding of 16 bits, 2⁻³⁰/12, over the power 1/2 of such a sine: −98 dB. The rounding of
 /// a pure tone is no noise but lines, at multiples of the common divisor of its frequency and the sample rate, which may be 10 or 20 Hz.
 /// *Physics.*
 const ROUNDING_POWER: f64 = 1.55e-10;
-/// The same for further lines, once there is hum, dB. *Decision.*
-const WEAK_OVER_DB_MIN: f64 = 5.0;
 /// Smallest share of rows in which a line of hum is in its place: noise moves weak lines, and a rotor of varying speed leaves the place
 /// soon. *Decision.*
 const ROWS_IN_PLACE_MIN: f64 = 0.8;

@@ -74,28 +74,17 @@ impl Default for SurveySettings {
     }
 }
 
-/// Builds a survey from a stream of samples.
-pub(crate) struct SurveyBuilder {
-    coarse: RowsBuilder,
-}
-
-impl SurveyBuilder {
-    pub(crate) fn new(settings: SurveySettings, sample_rate_hz: f64, start_s: f64) -> Self {
-        let coarse = RowSettings {
-            window_s: settings.window_s,
-            hop_s: settings.window_s / 2.0,
-            row_s: settings.row_s,
-            rows_max: settings.rows_max,
-        };
-        Self { coarse: RowsBuilder::new(sample_rate_hz, start_s, coarse) }
+impl SurveySettings {
+    /// Frames and rows of all frequencies.
+    pub(crate) fn coarse_rows(&self) -> RowSettings {
+        let Self { window_s, row_s, rows_max, .. } = *self;
+        RowSettings { window_s, hop_s: window_s / 2.0, row_s, rows_max }
     }
 
-    pub(crate) fn push(&mut self, samples: &[f32]) {
-        self.coarse.push(samples);
-    }
-
-    pub(crate) fn finish(self, end_s: f64) -> Survey {
-        Survey::of_rows(self.coarse.finish(end_s))
+    /// Frames and rows of the low frequencies.
+    fn fine_rows(&self) -> RowSettings {
+        let window_s = self.fine_window_s;
+        RowSettings { window_s, hop_s: window_s / 2.0, row_s: window_s, rows_max: self.rows_max / 2 }
     }
 }
 
@@ -108,13 +97,8 @@ pub(crate) struct HumFinder {
 impl HumFinder {
     pub(crate) fn new(settings: SurveySettings, sample_rate_hz: f64, start_s: f64) -> Self {
         let decimator = Decimator::new(sample_rate_hz, settings.fine_hz_max);
-        let fine = RowSettings {
-            window_s: settings.fine_window_s,
-            hop_s: settings.fine_window_s / 2.0,
-            row_s: settings.fine_window_s,
-            rows_max: settings.rows_max / 2,
-        };
-        Self { fine: RowsBuilder::new(decimator.rate_hz(), start_s + decimator.delay_s(), fine), decimator }
+        let fine = RowsBuilder::new(decimator.rate_hz(), start_s + decimator.delay_s(), settings.fine_rows());
+        Self { fine, decimator }
     }
 
     pub(crate) fn push(&mut self, samples: &[f32]) {
@@ -133,13 +117,13 @@ mod tests {
 
     fn survey(seconds: usize, rows_max: usize) -> Survey {
         let settings = SurveySettings { rows_max, ..SurveySettings::default() };
-        let mut builder = SurveyBuilder::new(settings, 1000.0, 2.0);
+        let mut builder = RowsBuilder::new(1000.0, 2.0, settings.coarse_rows());
         for second in 0..seconds {
             let level = if second == 3 { 0.5 } else { 0.0 };
             let block: Vec<f32> = (0..1000).map(|n| level * ((n as f32) * 1.3).sin()).collect();
             block.chunks(100).for_each(|samples| builder.push(samples));
         }
-        builder.finish(2.0 + seconds as f64)
+        Survey::of_rows(builder.finish(2.0 + seconds as f64))
     }
 
     /// Rounded to 16 bits, a pure tone has lines at multiples of 20 Hz. Below the rounding noise they are no hum.

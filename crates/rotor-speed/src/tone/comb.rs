@@ -6,8 +6,8 @@ use hovertone_signal::spectrogram::whitened_db;
 use hovertone_vehicle::BLADES_MAX;
 use std::ops::RangeInclusive;
 
-/// Distance of neighbouring speeds on the search grid, as a share. *Numeric.*
-const GRID_STEP_SHARE: f64 = 0.003;
+/// Distance of neighbouring speeds or fundamentals on the search grid, as a share. *Numeric.*
+pub(super) const GRID_STEP_SHARE: f64 = 0.003;
 /// A line counts up to this level, so that one strong line does not outweigh a series. *Decision.*
 const LEVEL_DB_MAX: f64 = 40.0;
 /// Harmonics of the blade pass that are looked at: as many as stand out of the noise of small multirotors. *Decision.*
@@ -78,6 +78,12 @@ fn scale(teeth: &mut [Tooth], total: f64) {
     teeth.iter_mut().for_each(|tooth| tooth.weight *= total / sum);
 }
 
+/// Speeds or fundamentals from one to another, in equal steps of the logarithm.
+pub(super) fn search_grid(low: f64, high: f64) -> Vec<f64> {
+    let count = ((high / low).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
+    (0..count).map(|i| low * (GRID_STEP_SHARE * i as f64).exp()).collect()
+}
+
 /// Level over the floor at a place between bins: the highest within the grid's step, 0 beyond the spectrum.
 fn level_db(whitened: &[f64], place: f64) -> f64 {
     let half = place * GRID_STEP_SHARE / 2.0;
@@ -97,9 +103,7 @@ impl CombMap {
     /// Scores every speed of the range in every row.
     pub(crate) fn from_survey(survey: &Survey, tone: &ToneConfig, search_rev_s: &RangeInclusive<f64>) -> Self {
         let comb = Comb::for_tone(tone);
-        let (&low, &high) = (search_rev_s.start(), search_rev_s.end());
-        let count = ((high / low).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
-        let speeds_rev_s: Vec<f64> = (0..count).map(|i| low * (GRID_STEP_SHARE * i as f64).exp()).collect();
+        let speeds_rev_s = search_grid(*search_rev_s.start(), *search_rev_s.end());
         let scores_db = survey
             .rows
             .iter()
@@ -171,7 +175,7 @@ fn weighted_mean(weighted: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::survey::{SurveyBuilder, SurveySettings};
+    use crate::survey::{RowsBuilder, SurveySettings};
     use crate::tone::ToneConfig;
     use hovertone_signal::statistics::mean;
     use hovertone_vehicle::Order;
@@ -188,9 +192,9 @@ mod tests {
                 (sound + 0.02 * ((noise >> 40) as f64 / f64::from(1 << 23) - 1.0)) as f32
             })
             .collect();
-        let mut builder = SurveyBuilder::new(SurveySettings::default(), rate, 0.0);
+        let mut builder = RowsBuilder::new(rate, 0.0, SurveySettings::default().coarse_rows());
         builder.push(&samples);
-        CombMap::from_survey(&builder.finish(3.0), tone, &(15.0..=280.0))
+        CombMap::from_survey(&Survey::of_rows(builder.finish(3.0)), tone, &(15.0..=280.0))
     }
 
     /// Error of the speed of all rows near the true one, as a share.

@@ -1,6 +1,6 @@
 //! Settings of the discovery of tones: every default with its unit and its reason.
 
-use hovertone_vehicle::{ConfigError, THRUST_COEFFICIENT, TIP_MACH_MAX, check_range};
+use hovertone_vehicle::{ConfigError, check_range};
 use serde::Serialize;
 
 /// How tone families are found, and what is known of multirotors in general.
@@ -30,16 +30,6 @@ pub struct DiscoveryConfig {
     /// presets and of public recordings whose blades are known) ten have two and four have three; one is added to each number.
     /// Never enough to settle anything.
     pub blade_shares: [f64; 5],
-    /// Fastest tip as a share of the speed of sound: propellers of multirotors stay below 0.6.
-    pub tip_mach_max: f64,
-    /// Smallest thrust coefficient F/(ρ n² D⁴) of a hovering propeller.
-    pub thrust_coefficient_min: f64,
-    /// Largest. Measured propellers have 0.06 to 0.15.
-    pub thrust_coefficient_max: f64,
-    /// Density of the air for that, kg/m³.
-    pub air_density_kg_m3: f64,
-    /// Speed of sound for the tip, m/s.
-    pub sound_speed_m_s: f64,
     /// Share of vehicles whose propellers turn behind a known gear.
     pub gear_share: f64,
     /// Share of recordings whose levels deceive about the blades and the octave, where neither blades nor diameter are known: 4 of the 37 real
@@ -60,11 +50,6 @@ impl Default for DiscoveryConfig {
             row_score_db_min: 3.0,
             plausible_min: 0.002,
             blade_shares: [0.58, 0.26, 0.05, 0.05, 0.05],
-            tip_mach_max: TIP_MACH_MAX,
-            thrust_coefficient_min: *THRUST_COEFFICIENT.start(),
-            thrust_coefficient_max: *THRUST_COEFFICIENT.end(),
-            air_density_kg_m3: 1.2,
-            sound_speed_m_s: 343.0,
             gear_share: 0.03,
             deceived_share: 0.1,
         }

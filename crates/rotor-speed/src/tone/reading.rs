@@ -2,7 +2,9 @@
 
 use crate::tone::DiscoveryConfig;
 use hovertone_analysis::{Meaning, Reading};
-use hovertone_vehicle::{Gear, KNOWN_RANGE_MARGIN, KnownRotor, Order, RotorSpeed};
+use hovertone_vehicle::{
+    AIR_KG_M3, Gear, KNOWN_RANGE_MARGIN, KnownRotor, Order, RotorSpeed, SOUND_M_S, THRUST_COEFFICIENT, TIP_MACH_MAX,
+};
 use std::f64::consts::PI;
 
 /// Numbers of blades that are considered. *Decision.*
@@ -27,7 +29,7 @@ pub(crate) fn readings_of_tone(tone_hz: f64, known: &KnownRotor, config: &Discov
             why,
             ..reading_at(RotorSpeed::from_tone_hz(tone_hz, order), order, Meaning::BladePass { blades })
         };
-        rule_out(&mut reading, known, config);
+        rule_out(&mut reading, known);
         Some(reading)
     };
     let mut readings: Vec<Reading> = BLADES.into_iter().zip(config.blade_shares).filter_map(reading).collect();
@@ -59,7 +61,7 @@ pub(crate) fn normalise(readings: &mut [Reading]) {
 }
 
 /// Tip speed, thrust coefficient and known range; what lies outside loses all belief.
-pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &DiscoveryConfig) {
+pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor) {
     let rev_s = reading.speed.rev_s();
     let (low, high) = known
         .shaft_speed
@@ -77,15 +79,15 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
         });
     }
     if let Some(diameter_m) = known.diameter_m {
-        let mach = PI * diameter_m * rev_s / config.sound_speed_m_s;
+        let mach = PI * diameter_m * rev_s / SOUND_M_S;
         reading.tip_mach = Some(mach);
-        if mach > config.tip_mach_max {
-            against.push(format!("too fast (blade tips above Mach {})", config.tip_mach_max));
+        if mach > TIP_MACH_MAX {
+            against.push(format!("too fast (blade tips above Mach {TIP_MACH_MAX})"));
         }
-        if let Some(thrust_coefficient) = known.hover_thrust_coefficient(rev_s, config.air_density_kg_m3) {
+        if let Some(thrust_coefficient) = known.hover_thrust_coefficient(rev_s, AIR_KG_M3) {
             reading.thrust_coefficient = Some(thrust_coefficient);
-            let (low, high) = (config.thrust_coefficient_min, config.thrust_coefficient_max);
-            if !(low..=high).contains(&thrust_coefficient) {
+            if !THRUST_COEFFICIENT.contains(&thrust_coefficient) {
+                let (low, high) = (*THRUST_COEFFICIENT.start(), *THRUST_COEFFICIENT.end());
                 against.push(format!("its C_T would be outside the range of propellers, {low} to {high}"));
             }
         }

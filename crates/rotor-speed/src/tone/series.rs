@@ -1,11 +1,10 @@
 //! Rows of levels → the strongest series of lines in them: a fundamental, followed from row to row.
 
+use super::comb::{GRID_STEP_SHARE, search_grid};
 use super::levels::{LevelRow, LevelRows};
 use crate::tone::DiscoveryConfig;
-use hovertone_signal::statistics::median;
+use hovertone_signal::statistics::{mean_by_square, median};
 
-/// Distance of neighbouring fundamentals on the search grid, as a share. *Numeric.*
-const GRID_STEP_SHARE: f64 = 0.003;
 /// Lines that a series is recognised by, each counting less than the one before. *Decision.*
 const SERIES_LINES: u32 = 8;
 /// Places between lines, at half orders, where a series has none. *Decision.*
@@ -51,7 +50,7 @@ impl Series {
         if hz_max <= config.fundamental_hz_min || levels.rows.is_empty() {
             return None;
         }
-        let grid_hz = grid_hz(config.fundamental_hz_min, hz_max);
+        let grid_hz = search_grid(config.fundamental_hz_min, hz_max);
         let scores = scores_db(levels, &grid_hz);
         let leading = leading_place(&scores)?;
         let reach = (ROW_HALF_WIDTH_SHARE / GRID_STEP_SHARE) as usize;
@@ -62,7 +61,7 @@ impl Series {
 
     /// The series near a fundamental that is known; in all rows where it scores enough in none.
     pub(crate) fn near(levels: &LevelRows<'_>, hz: f64, config: &DiscoveryConfig) -> Self {
-        let grid_hz = grid_hz(hz * (1.0 - ROW_HALF_WIDTH_SHARE), hz * (1.0 + ROW_HALF_WIDTH_SHARE));
+        let grid_hz = search_grid(hz * (1.0 - ROW_HALF_WIDTH_SHARE), hz * (1.0 + ROW_HALF_WIDTH_SHARE));
         let scores = scores_db(levels, &grid_hz);
         let windows: Vec<&[f64]> = scores.iter().map(Vec::as_slice).collect();
         let everywhere = || Self { hz, row_hz: vec![Some(hz); levels.rows.len()] };
@@ -75,9 +74,7 @@ impl Series {
             .iter()
             .filter_map(|row| row.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)))
             .collect();
-        let (cubes, squares) =
-            best.iter().map(|&(_, s)| s.max(0.0)).fold((0.0, 0.0), |(c, q), s| (c + s.powi(3), q + s.powi(2)));
-        let typical_db = if squares > 0.0 { cubes / squares } else { 0.0 };
+        let typical_db = mean_by_square(best.iter().map(|&(_, score)| score.max(0.0))).unwrap_or(0.0);
         let score_db_min = config.row_score_db_min.max(PRESENT_SCORE_SHARE * typical_db);
         let row_hz: Vec<Option<f64>> = best
             .iter()
@@ -119,7 +116,7 @@ impl Series {
     pub(crate) fn in_rows_of(&self, own: &LevelRows<'_>, other: &LevelRows<'_>) -> Self {
         let hz_at = |row: &LevelRow<'_>| {
             let within = own.rows.iter().zip(&self.row_hz).filter_map(|(mine, hz)| {
-                let middle_s = (mine.span.from_s + mine.span.to_s) / 2.0;
+                let middle_s = mine.span.middle_s();
                 hz.filter(|_| middle_s >= row.span.from_s && middle_s <= row.span.to_s)
             });
             let hz = median(&within.collect::<Vec<_>>())?;
@@ -157,12 +154,6 @@ impl Series {
             }
         }
     }
-}
-
-/// Fundamentals from one to another, in equal steps of the logarithm.
-fn grid_hz(hz_min: f64, hz_max: f64) -> Vec<f64> {
-    let count = ((hz_max / hz_min).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
-    (0..count).map(|i| hz_min * (GRID_STEP_SHARE * i as f64).exp()).collect()
 }
 
 /// The score of each fundamental in each row.

@@ -106,7 +106,7 @@ impl ToneConfig {
         check_range("harmonics", f64::from(self.harmonics), 1.0, 20.0)?;
         check_range("blade_pass_lines", f64::from(self.blade_pass_lines), 1.0, 40.0)?;
         check_range("gear_mesh_lines", f64::from(self.gear_mesh_lines), 1.0, 40.0)?;
-        check_range("blades", f64::from(self.blades.unwrap_or(1)), 1.0, 20.0)?;
+        check_range("blades", f64::from(self.blades.unwrap_or(1)), 1.0, BLADES_MAX)?;
         check_range("band_half_width_share", self.band_half_width_share, 0.005, 0.3)?;
         check_range("speed_rad_s_min", self.speed_min.rad_s(), 1.0, 1e5)?;
         check_range("speed_rad_s_max", self.speed_max.rad_s(), self.speed_min.rad_s(), 1e5)?;
@@ -130,4 +130,19 @@ pub(crate) fn blades_of_tone(tone: &ToneConfig) -> Option<u32> {
 /// Blades of the rotor: those that are said, or those whose blade pass is followed.
 pub fn blades_known(tone: &ToneConfig) -> Option<u32> {
     tone.blades.or(blades_of_tone(tone))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_blades_than_a_propeller_has_are_refused() {
+        let checked = |blades: u32| {
+            let tone = ToneConfig::of_order(Order::from_blades(2).unwrap());
+            ToneConfig { blades: Some(blades), ..tone }.check()
+        };
+        assert_eq!(checked(12), Ok(()));
+        assert_eq!(checked(13).unwrap_err().to_string(), "blades = 13, but it must be from 1 to 12");
+    }
 }

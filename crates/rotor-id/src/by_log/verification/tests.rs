@@ -157,6 +157,26 @@ fn a_wrong_order_and_a_wrong_clock_are_told() {
     assert!((rate + 1e-3).abs() < 3e-4, "{rate}");
 }
 
+/// The log ends before the second half of the recording, or one rotor is heard in the first half alone.
+#[test]
+fn one_half_tells_no_drift_of_the_clocks() {
+    let rows_s = |count: u32| -> Vec<f64> { (0..count).map(|row| 0.1 * f64::from(row)).collect() };
+    let names = ["motor 1".to_owned(), "motor 2".to_owned()];
+    let (first, second) = (track(0, 1.0), track(1, 1.0));
+    let drift = |tracks: &[&[TrackPoint]], rows: u32| {
+        let time_s = rows_s(rows);
+        let of_motor = |motor: usize| time_s.iter().map(|&row_s| speed_rev_s(motor, row_s)).collect();
+        let speeds_rev_s: Vec<Vec<f64>> = (0..2).map(of_motor).collect();
+        let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+        let found = verification_from_log(tracks, log, None).unwrap();
+        assert!(found.offset_s.abs() < 0.01, "{}", found.offset_s);
+        found.clock_rate_share
+    };
+    assert!(drift(&[&first, &second], 1000).is_some_and(|share| share.abs() < 3e-4));
+    assert_eq!(drift(&[&first, &second], 360), None);
+    assert_eq!(drift(&[&first, &second[..900]], 1000), None);
+}
+
 #[test]
 fn nothing_to_compare_has_a_reason() {
     let names = ["motor 1".to_owned()];
