@@ -14,6 +14,7 @@ mod other_rotor;
 mod percent;
 mod ridge;
 mod rotors_heard;
+mod rotors_not_apart;
 mod span;
 mod speed;
 mod speed_analysis;

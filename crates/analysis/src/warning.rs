@@ -1,6 +1,7 @@
 //! Warnings about a speed, each with a hint. They are values; nothing here prints.
 
 use crate::OtherRotor;
+use crate::rotors_not_apart::{not_apart_hint, not_apart_text};
 use serde::Serialize;
 use std::fmt;
 
@@ -176,21 +177,8 @@ impl Warning {
                 "record a longer hover, or choose a longer part with --from and --to"
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
-            Self::RotorsNotApart { in_mean: 0, is_assumed: true, .. } => {
-                "if fewer rotors turn, give their number, as in --rotors 1: the ± becomes smaller; to separate several, place the microphone nearer"
-            }
-            Self::RotorsNotApart { in_mean: 0, .. } => {
-                "to separate them and get a smaller ±, place the microphone nearer; rotors at nearly equal speeds \
-                cannot be separated"
-            }
-            Self::RotorsNotApart { of, in_mean, .. } if *in_mean == *of as usize => {
-                "the speed is the mean of all rotors, also of those that could not be separated, so its ± is larger; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
-            }
-            Self::RotorsNotApart { resolved, in_mean, .. } if in_mean == resolved => {
-                "the speed is the mean of the separated rotors, so its ± is larger; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
-            }
-            Self::RotorsNotApart { .. } => {
-                "the speed is the mean of the rotors that are heard, so its ± is larger; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            Self::RotorsNotApart { resolved, of, in_mean, is_assumed, .. } => {
+                not_apart_hint(*resolved, *of, *in_mean, *is_assumed)
             }
             Self::RotorCountUnknown { .. } => {
                 "give the number of rotors, as in --rotors 4 or --rotors 1: the ± may become smaller; to separate several rotors, place the microphone nearer"
@@ -260,7 +248,7 @@ impl fmt::Display for Warning {
                 )
             }
             Self::RotorsNotApart { resolved, of, in_mean, is_assumed, spread_share } => {
-                f.write_str(&not_apart_text(*resolved, &all_rotors_text(*of, *is_assumed), *in_mean > 0, *spread_share))
+                f.write_str(&not_apart_text(*resolved, *of, *is_assumed, *in_mean > 0, *spread_share))
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
@@ -307,27 +295,6 @@ fn others_heard_text(expected: u32) -> String {
     match expected {
         1 => "one rotor alone is expected, but other rotors are heard too".to_owned(),
         several => format!("{several} rotors are expected, but another rotor is heard beside them"),
-    }
-}
-
-/// "4 rotors", and whether their number was given.
-fn all_rotors_text(of: u32, is_assumed: bool) -> String {
-    let assumed = format!(" (hovertone assumes {of}, because no number was given)");
-    format!("{of} rotors{}", if is_assumed { &assumed } else { "" })
-}
-
-/// How many rotors were separated, and what their speed is then. `rotors` are all.
-fn not_apart_text(resolved: usize, rotors: &str, has_mean: bool, spread_share: f64) -> String {
-    match (resolved, has_mean) {
-        (0, true) => {
-            format!("the {rotors} could not be separated, so only their mean speed is known")
-        }
-        (0, false) => format!(
-            "the {rotors} could not be separated: one tone is used for all, and it may come from one rotor alone. \
-            So the ± is larger: hovertone assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
-            100.0 * spread_share
-        ),
-        _ => format!("only {resolved} of the {rotors} could be separated"),
     }
 }
 

@@ -53,7 +53,7 @@ impl OutputFolder {
                 return Err(refused(&what, "choose another folder for the results, as in -o results", path));
             }
             let what = format!(
-                "this folder has files that do not come from an earlier run {}: nothing was written",
+                "nothing was written, because this folder has files that do not come from an earlier run {}",
                 content.name
             );
             let hint = "choose a new folder with -o DIR, or use --force to write into this folder: files with the \

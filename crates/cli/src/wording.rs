@@ -9,7 +9,7 @@ pub(crate) const IN_PLACE_OF_FILE: Wording =
 const IN_PLACE_OF_KEYS: &[(&str, &str)] = &[
     (
         "--from and --to",
-        "from_s and to_s: run this command with -o DIR, write both times (in s) under the [[load]] of this recording in DIR/experiment.toml, and run `hovertone identify DIR/experiment.toml`",
+        "from_s and to_s: run this command with -o DIR, see in DIR/report.html when the tone is clear, write both times (in s) under the [[load]] of this recording in DIR/experiment.toml, and run `hovertone identify DIR/experiment.toml`",
     ),
     ("; to follow one rotor, give --band LOW:HIGH around its tone", ONE_BAND_FOR_ALL),
     (" alone, in place of the vehicle", " and --rotors N, in place of --vehicle"),
@@ -42,9 +42,16 @@ const HEARD_AS_CONSTANT: &str = "you need to do nothing: the speeds behind the c
 
 /// Behind `verify`, which compares the speeds of each moment, without the speed of the recording: its table names what is compared.
 pub(crate) const IN_VERIFY: Wording = Wording::of_phrases(&[
-    ("the speed is the mean of all rotors, also of those that could not be separated, so its ± is larger; ", ""),
-    ("the speed is the mean of the separated rotors, so its ± is larger; ", ""),
-    ("the speed is the mean of the rotors that are heard, so its ± is larger; ", ""),
+    ("the speed is the mean of all rotors, and its ± is larger, because they could not be separated; ", ""),
+    ("the speed is the mean of all rotors, and its ± is larger, because some could not be separated; ", ""),
+    (
+        "the speed is the mean of the separated rotors, and its ± is larger, because the speeds of the others are not known; ",
+        "",
+    ),
+    (
+        "the speed is the mean of the rotors that are heard, and its ± is larger, because the speeds of the others are not known; ",
+        "",
+    ),
 ]);
 
 #[cfg(test)]
@@ -123,10 +130,7 @@ mod tests {
             spread_share: 0.006,
         };
         for (in_mean, begins) in [
-            (
-                4,
-                "C_f uses the mean speed of all rotors, also of those that could not be separated, so its ± is larger; ",
-            ),
+            (4, "C_f uses the mean speed of all rotors, and its ± is larger, because they could not be separated; "),
             (0, "the ± of C_f includes this uncertainty; "),
         ] {
             let worded = Wording::IN_EXPERIMENT.of(apart(in_mean).hint());

@@ -72,16 +72,18 @@ pub(super) fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArgum
         let is_exact = comparison.reference.std_share() == 0.0;
         let right = match is_exact {
             true => {
-                format!("if the known {what} is exact; if it is not, give half of its ±, in ppm, with --known-std-ppm")
+                format!(
+                    "this correction takes the known {what} as exact; if it has a ±, run this command again with --known-std-ppm and half of this ±, in ppm"
+                )
             }
-            false => format!("if the known {what} is right within its ±"),
+            false => format!("this correction is right if the known {what} is right within its ±"),
         };
         let unusual = format!("few clocks are off by more than {USUAL_PPM_MAX} ppm, so check the known {what} first\n");
         let unusual = if whole_ppm.abs() > USUAL_PPM_MAX { &unusual } else { "" };
         format!(
-            "{unusual}correction of heard speeds: {ppm} ppm, {right}. Add --clock-correction-ppm {ppm} to later commands with this recorder, or write \
+            "{unusual}correction of heard speeds: {ppm} ppm. Add --clock-correction-ppm {ppm} to later commands with this recorder, or write \
              in an experiment file:\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}  # error that may remain; a warmer or colder recorder changes by about {WARMTH_PPM} ppm\n",
+             clock_ppm = {}  # error that may remain; a warmer or colder recorder changes by about {WARMTH_PPM} ppm\n{right}\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {

@@ -285,12 +285,12 @@ fn results_of_another_experiment_are_replaced_only_by_force() {
     keeps_all(
         &out,
         &["identify", text(&other), "-o", text(&out)],
-        &["has files that do not come from an earlier run", "same experiment", "--force"],
+        &["has files that do not come from an earlier run", "this experiment", "--force"],
     );
     // the same recordings and masses, typed, are another experiment: they leave experiment.toml
     let mass = format!("413g={}", text(&folder.path().join("a.wav")));
     let typed = ["identify", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&out)];
-    keeps_all(&out, &typed, &["has files that do not come from an earlier run", "same experiment"]);
+    keeps_all(&out, &typed, &["has files that do not come from an earlier run", "this experiment"]);
     // a table that a person changed
     let table = out.join("tables.md");
     fs::write(&table, "precious").unwrap();
