@@ -36,11 +36,11 @@ pub struct GivenFacts {
 }
 
 impl GivenFacts {
-    /// "the blades, the mass or the band"; "the given facts" where none is known. `last` is the word before the last fact.
+    /// "the number of blades, the mass or the band"; "the given facts" where none is known. `last` is the word before the last fact.
     pub fn in_words(self, last: &str) -> String {
         let facts = [
             (self.vehicle, "the vehicle"),
-            (self.blades, "the blades"),
+            (self.blades, "the number of blades"),
             // --gear and --order say the same
             (self.gear, "the gear (--gear or --order)"),
             (self.order, "the number of --order"),
@@ -64,7 +64,7 @@ impl GivenFacts {
     fn in_given_words(self, advice: &str) -> String {
         let facts = [
             (self.vehicle, "the vehicle"),
-            (self.blades, "the blades"),
+            (self.blades, "the number of blades"),
             (self.gear, "the gear"),
             (self.order, "the number of --order"),
         ];
@@ -149,16 +149,17 @@ mod tests {
             window: true,
             rotors: false,
         };
-        let named = "the vehicle, the blades, the gear (--gear or --order), the diameter, the mass and the band";
+        let named =
+            "the vehicle, the number of blades, the gear (--gear or --order), the diameter, the mass and the band";
         assert_eq!(all.in_words("and"), named);
         let of_vehicle = GivenFacts { vehicle: true, band: true, ..nothing };
         assert_eq!(of_vehicle.in_words("and"), "the vehicle and the band");
         let alone = GivenFacts { blades: true, mass: true, band: true, ..nothing };
-        assert_eq!(alone.in_words("or"), "the blades, the mass or the band");
+        assert_eq!(alone.in_words("or"), "the number of blades, the mass or the band");
         assert_eq!(all.replaced_by_blades(), "the vehicle, the gear (--gear or --order) and the band");
         assert_eq!(of_vehicle.replaced_by_blades(), "the vehicle and the band");
         assert_eq!(alone.replaced_by_blades(), "the band");
-        assert_eq!(GivenFacts { blades: true, ..nothing }.replaced_by_blades(), "the blades");
+        assert_eq!(GivenFacts { blades: true, ..nothing }.replaced_by_blades(), "the number of blades");
         let by_numbers = GivenFacts { diameter: true, mass: true, ..nothing };
         assert_eq!(by_numbers.in_words("and"), "the diameter and the mass");
     }
@@ -172,14 +173,22 @@ mod tests {
         assert!(hints(nothing).iter().all(|hint| !hint.contains("gear")), "{:?}", hints(nothing));
         assert!(hints(nothing)[0].ends_with("check the number of blades"), "{:?}", hints(nothing));
         let geared = GivenFacts { blades: true, gear: true, ..nothing };
-        assert!(hints(geared).iter().all(|hint| hint.contains("check the blades and the gear")), "{:?}", hints(geared));
+        assert!(
+            hints(geared).iter().all(|hint| hint.contains("check the number of blades and the gear")),
+            "{:?}",
+            hints(geared)
+        );
         let by_order = GivenFacts { order: true, ..nothing };
         assert_eq!(by_order.in_words("and"), "the number of --order");
         assert!(hints(by_order).iter().all(|hint| hint.contains("the number of --order")), "{:?}", hints(by_order));
         let vehicle = GivenFacts { vehicle: true, ..nothing };
         assert!(hints(vehicle).iter().all(|hint| hint.contains("check the vehicle")), "{:?}", hints(vehicle));
         let own_blades = GivenFacts { blades: true, ..vehicle };
-        assert!(hints(own_blades)[0].ends_with("check the vehicle and the blades"), "{:?}", hints(own_blades));
+        assert!(
+            hints(own_blades)[0].ends_with("check the vehicle and the number of blades"),
+            "{:?}",
+            hints(own_blades)
+        );
     }
 
     /// One warning would ask for a wider band, another for a narrower one, and a third for none.

@@ -181,7 +181,7 @@ mod tests {
         assert!(told.contains("give --blades 2 alone, in place of the gear (--gear or --order); if not"), "{told}");
         let by_blades = NoTone::NoSeries { only_rev_s: None, instead }.in_words(GivenFacts { gear: false, ..geared });
         assert!(
-            by_blades.contains("if your rotor has 2 blades, give --blades 2; if not, check the blades"),
+            by_blades.contains("if your rotor has 2 blades, give --blades 2; if not, check the number of blades"),
             "{by_blades}"
         );
         let other = said(Some((200.0, 400.0)));

@@ -171,8 +171,8 @@ fn why_one_law(range: Option<LoadRange>, has_misfits: bool) -> &'static str {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square). {}: if this law and the stated uncertainties are \
-            right, the probability of differences this large, or larger, is {} (χ² = {}, {} degree{} of freedom){}\n",
+            "the forces differ from F = C ω² by {:.2} % of the largest force (root mean square). {}: if this law and the uncertainties of the \
+            forces and speeds are right, the probability of differences this large, or larger, is {} (χ² = {}, {} degree{} of freedom){}\n",
             100.0 * fit.residual_rms_share,
             if agreement.is_disagreement() { "Chance alone hardly explains this" } else { "Chance alone explains this" },
             p_value_text(agreement.p_value),

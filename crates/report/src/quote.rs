@@ -49,7 +49,7 @@ impl Verdict {
                     "each load has only one recording, so nothing shows how much the speed differs from flight to flight"
                 }
             };
-            return Self::Untested(format!("not tested: {why}"));
+            return Self::Untested(format!("whether the loads agree was not tested, because {why}"));
         }
         match misfits.as_slice() {
             [] => {

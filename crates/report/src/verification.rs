@@ -181,7 +181,9 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
             format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
             match (found.speed_ratio - 1.0).abs() < CLOCK_SHARE_MAX {
                 true => "check that the log is of this flight; if it is, check the clock of the recorder",
-                false => "check that the log is of this flight; if it is, check the number of blades (or the gear)",
+                false => {
+                    "check that the log is of this flight; if it is, check the number of blades, or the gear if the vehicle has one"
+                }
             },
         )),
     }

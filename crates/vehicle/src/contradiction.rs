@@ -165,11 +165,10 @@ impl Contradiction {
     /// Advice to the user.
     pub fn hint(&self) -> String {
         match self {
-            Self::Blades { .. } => "leave out one of the two; if your vehicle has other propellers than usual, give the blades without the \
-            name of the vehicle"
+            Self::Blades { .. } => "leave out one of the two; if your vehicle has other propellers than usual, leave its name out, and give blades, rotors and \
+            the gear (if it has one)"
                 .to_owned(),
-            Self::Gear { .. } => "leave out one of the two; if your vehicle has another gear than usual, give the gear without the name of \
-            the vehicle"
+            Self::Gear { .. } => "leave out one of the two; if your vehicle has another gear than usual, leave its name out, and give gear, blades and rotors"
                 .to_owned(),
             Self::Order { .. } => "leave the order out: hovertone follows the multiples of the tone (its harmonics) by itself".to_owned(),
             Self::OrderOfBlades { blades, .. } => format!("leave out one of the two: blades = {blades} alone means order = {blades}"),

@@ -117,7 +117,7 @@ fn noise_has_no_rotor_tone_and_ends_with_3() {
         ),
         (
             &["--blades", "2", "--band", "200:300"],
-            "no rotor is heard at 100 to 150 rev/s, where the given facts expect it; check the blades and the band, or move the",
+            "no rotor is heard at 100 to 150 rev/s, where the given facts expect it; check the number of blades and the band, or move the",
         ),
     ] {
         let run = hovertone(&[&["speed", text(&path)], said].concat()).ends_with(3);

@@ -3,7 +3,8 @@
 //! A stretch of sound (a part of the recording without gaps) is cut into chunks of nearly equal length. The noise around each
 //! line is measured in every chunk.
 
-use super::noise_floor::{NOISE_FRAME_HOPS, NoiseMeter};
+use super::noise_floor::NoiseMeter;
+use super::speed_map::FRAME_HOPS;
 use hovertone_signal::channels::{Channel, ChannelBand, ChannelBank, TICKS_PER_HOP};
 use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::passes::StretchListener;
@@ -14,9 +15,9 @@ const CHUNK_S_MAX: f64 = 10.0;
 /// Smallest noise variance of one channel sample: it keeps the likelihood of digital silence finite. The last bit of 24 has 2e-15.
 /// *Numeric.*
 const NOISE_VARIANCE_MIN: f64 = 1e-16;
-/// Smallest noise variance as a share of the power of the sound: rounding of the transforms makes noise below this, and that
-/// noise keeps its phase like a tone. *Numeric.*
-const ROUNDING_SHARE: f64 = 1e-12;
+/// Smallest noise variance of one channel sample as a share of the power of the sound: rounding of the samples to 16 bits, and of the transforms,
+/// makes noise below this, and that noise keeps its phase like a tone. *Numeric.*
+const ROUNDING_SHARE: f64 = 1e-8;
 /// Rounding error of the length of a stretch, ticks: a remainder below this is no tick. *Numeric.*
 const TICK_TOLERANCE: f64 = 1e-6;
 
@@ -182,7 +183,7 @@ impl ChunkCutter {
         self.bank.restart();
         (self.start_s, self.stretch_start_s, self.samples_in, self.squares) = (start_s, start_s, 0, 0.0);
         let chunks = (length_s / CHUNK_S_MAX).ceil().max(1.0);
-        self.chunk_hops = (length_s / chunks / self.bank.hop_s()).ceil().max(NOISE_FRAME_HOPS as f64) as usize;
+        self.chunk_hops = (length_s / chunks / self.bank.hop_s()).ceil().max(1.0) as usize;
     }
 
     fn push(&mut self, samples: &[f32]) {
@@ -197,14 +198,14 @@ impl ChunkCutter {
         (self.hops() >= self.chunk_hops + self.chunk_hops / 2).then_some(self.chunk_hops * TICKS_PER_HOP)
     }
 
-    /// Ends the stretch: the chunk that is left, unless it is shorter than a frame of the noise spectrum, because its noise is not known then.
-    /// The last tick counts even where the sound ends within it, because the sound has faded out by then.
+    /// Ends the stretch: the chunk that is left, unless it is shorter than a frame of the speed map. The last tick counts even where
+    /// the sound ends within it, because the sound has faded out by then.
     fn last_chunk(&mut self) -> Option<LastChunk> {
         self.bank.finish(&mut self.series);
         let end_s = self.stretch_start_s + self.samples_in as f64 / self.sample_rate_hz;
         let ticks = ((end_s - self.start_s) / self.tick_s() - TICK_TOLERANCE).ceil() as usize;
         let ticks = ticks.min(self.hops() * TICKS_PER_HOP);
-        (ticks >= NOISE_FRAME_HOPS * TICKS_PER_HOP).then_some(LastChunk { ticks, end_s })
+        (ticks >= FRAME_HOPS * TICKS_PER_HOP).then_some(LastChunk { ticks, end_s })
     }
 
     /// A chunk of the first ticks in `series`. The noise of a line is measured where `known_noise` does not hold it.

@@ -10,7 +10,7 @@ use realfft::num_complex::Complex;
 const MIDDLE_SHARE: f64 = 0.8;
 /// Length of the frames of the noise spectrum, in hops of the filter bank: 0.34 s, so that a line of varying frequency covers
 /// few bins. *Numeric.*
-pub(super) const NOISE_FRAME_HOPS: usize = 4;
+const NOISE_FRAME_HOPS: usize = 4;
 
 /// Independent frames that each further frame adds: Hann frames that overlap by half share part of their sound (Welch, IEEE
 /// Trans. Audio and Electroacoustics 15, 1967). *Numeric.*
