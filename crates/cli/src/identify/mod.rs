@@ -150,7 +150,7 @@ fn checked_folder(
         folder,
         outputs,
         &FolderContent {
-            name: "of this experiment (with another experiment file, or with other masses or recordings, it is another experiment)",
+            name: "of this experiment (with another experiment file, or with other masses, recordings or facts of the vehicle, it is another experiment)",
             run: &run,
             files: &files,
         },

@@ -304,7 +304,7 @@ fn results_of_another_experiment_are_replaced_only_by_force() {
     fs::write(&drawn[0].0, "precious").unwrap();
     keeps_all(&figures, &identify, &["was changed"]);
     hovertone(&["identify", text(&other), "-o", text(&out), "--force"]).ends_with(3);
-    keeps_all(&out, &identify, &["same experiment"]);
+    keeps_all(&out, &identify, &["this experiment"]);
 }
 
 #[test]
@@ -317,7 +317,7 @@ fn an_experiment_file_that_was_changed_in_the_results_stays() {
     };
     hovertone(&typed(&[])).ends_with(3);
     hovertone(&typed(&[])).ends_with(3);
-    keeps_all(&out, &typed(&["--rotors", "4"]), &["same experiment"]);
+    keeps_all(&out, &typed(&["--rotors", "4"]), &["this experiment"]);
     let experiment = out.join("experiment.toml");
     fs::write(&experiment, fs::read_to_string(&experiment).unwrap() + "# my notes\n").unwrap();
     keeps_all(&out, &typed(&[]), &["experiment.toml", "was changed", "--force"]);
