@@ -101,7 +101,7 @@ fn a_standard_uncertainty_is_smaller_than_its_number() {
     for (more, words) in [
         (&["--mass-kg", "0.413", "--mass-std-kg", "413"][..], ["mass_std_kg = 413", "for ± 1 g write 0.0005"]),
         (&["--mass-std-kg", "413"], ["mass_std_kg = 413", "give --mass-kg"]),
-        (&["--constant-std-n-s2", "1"], ["constant_std_n_s2 = 1", "2.8e-7"]),
+        (&["--constant-std-n-s2", "1"], ["constant_std_n_s2 = 1", "give 0.01e-5"]),
         (
             &["--constant-std-n-s2", "2e-5"],
             ["constant_std_n_s2 = 0.00002", "must be less than the constant, 0.0000283 N s²"],
