@@ -22,6 +22,16 @@ pub(crate) fn not_apart_text(resolved: usize, of: u32, is_assumed: bool, has_mea
     }
 }
 
+/// Advice that begins with what the speed is.
+macro_rules! of_mean {
+    ($speed:literal) => {
+        concat!(
+            $speed,
+            "if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+        )
+    };
+}
+
 /// What to do. `in_mean` rotors are in the mean, of which `resolved` are separated; 0 where one tone is used for all.
 pub(crate) fn not_apart_hint(resolved: usize, of: u32, in_mean: usize, is_assumed: bool) -> &'static str {
     match in_mean {
@@ -32,16 +42,20 @@ pub(crate) fn not_apart_hint(resolved: usize, of: u32, in_mean: usize, is_assume
             "to separate them and get a smaller ±, place the microphone nearer; rotors at nearly equal speeds cannot be separated"
         }
         all if all == of as usize && resolved == 0 => {
-            "the speed is the mean of all rotors, and its ± is larger, because they could not be separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            of_mean!("the speed is the mean of all rotors, and its ± is larger, because they could not be separated; ")
         }
         all if all == of as usize => {
-            "the speed is the mean of all rotors, and its ± is larger, because some could not be separated; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            of_mean!("the speed is the mean of all rotors, and its ± is larger, because some could not be separated; ")
         }
         separated if separated == resolved => {
-            "the speed is the mean of the separated rotors, and its ± is larger, because the speeds of the others are not known; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            of_mean!(
+                "the speed is the mean of the separated rotors, and its ± is larger, because the speeds of the others are not known; "
+            )
         }
         _ => {
-            "the speed is the mean of the rotors that are heard, and its ± is larger, because the speeds of the others are not known; if fewer rotors turn, give their number with --rotors; a nearer microphone may help, but not with rotors at nearly equal speeds"
+            of_mean!(
+                "the speed is the mean of the rotors that are heard, and its ± is larger, because the speeds of the others are not known; "
+            )
         }
     }
 }

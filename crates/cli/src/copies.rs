@@ -8,6 +8,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+/// What to do about two recordings that are the same, where they are typed.
+pub(crate) const GIVE_ONE: &str =
+    "give only one of them: leave the other out of the command, or move it out of its folder";
+
 /// The tip that recordings with which the constant was measured show no mass that was not put into it. Only where the results name their recordings,
 /// files are read for it; their hashes stay with the jobs. A file that cannot be read is left to the analysis, which says why.
 pub(crate) fn tip_of_circle(jobs: &mut [Job], behind_sha256: &[String]) -> Option<Notice> {

@@ -1,7 +1,7 @@
 //! `hovertone weigh`: the mass of a hovering vehicle from its sound.
 
 use crate::args::WeighArguments;
-use crate::copies::{refuse_copies, refuse_equal_speeds, tip_of_circle};
+use crate::copies::{GIVE_ONE, refuse_copies, refuse_equal_speeds, tip_of_circle};
 use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
 use crate::foreign_speed::{advise_by_constant, foreign_speed};
@@ -26,7 +26,6 @@ use hovertone_vehicle::{
 use std::ops::RangeInclusive;
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
-const GIVE_ONCE: &str = "give only one of them: leave the other out of the command, or move it out of its folder";
 const CHECK_MODEL: &str = "check the name after --vehicle, the thrust constant (of the whole vehicle, in N/(rad/s)²), and the blades or the gear; if all are right, give the mass of the vehicle with --mass-kg";
 /// Thrust constants of vehicles, N s²: from one propeller of 10 mm to eight of 3 m, at any thrust coefficient.
 const CONSTANT_N_S2: RangeInclusive<f64> = 1e-11..=10.0;
@@ -68,7 +67,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     tips.chain(tip_of_clock(arguments, results.as_ref())).for_each(|notice| terminal.tip(&notice));
     let of_tone = warning_of_other_tone(&arguments.tone, results.as_ref())?;
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
-    refuse_copies(&mut jobs, GIVE_ONCE, None)?;
+    refuse_copies(&mut jobs, GIVE_ONE, None)?;
     let behind_sha256 = results.as_ref().map_or(&[][..], |rotor| &rotor.recordings_sha256);
     if let Some(notice) = tip_of_circle(&mut jobs, behind_sha256) {
         terminal.tip(&notice);
@@ -78,7 +77,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let records = plan.records_of(&jobs, hearing, &progress).into_iter();
     let mut records: Vec<SpeedRecord> = records.map(|record| record.worded(IN_HOVER)).collect();
     progress.finish();
-    refuse_equal_speeds(&records, GIVE_ONCE, None)?;
+    refuse_equal_speeds(&records, GIVE_ONE, None)?;
     // the known mass is that without the payload, which hovers too
     let is_told = |notice: &Notice| notice.kind != NoticeKind::CannotHover;
     records.iter_mut().for_each(|record| record.notices.retain(is_told));

@@ -25,8 +25,7 @@ pub(crate) struct Whole {
 impl Whole {
     /// The part of a recording that was chosen, or all of it.
     pub(crate) fn of(record: &SpeedRecord) -> Self {
-        let is_given = |place: &str| record.settings.pointer(place).is_some_and(|time_s| !time_s.is_null());
-        let is_part = is_given("/span/from_s") || is_given("/span/to_s");
+        let is_part = ["/span/from_s", "/span/to_s"].iter().any(|place| record.setting(place).is_some());
         Self {
             length_s: record.analysis().map_or(f64::INFINITY, |analysis| analysis.heard.length_s()),
             name: if is_part { "the chosen part" } else { "the recording" },

@@ -133,7 +133,7 @@ fn say(said: &Said<'_>, wants_json: bool, terminal: &mut Terminal) -> Result<(),
             "{}: {counts}\nanalysed in this run: {}{}\ntables: {}, {}\npage: {}{}\n",
             counted(recording_count, "recording"),
             counted(said.heard.total(), "recording"),
-            match recording_count - said.heard.total().min(recording_count) {
+            match recording_count.saturating_sub(said.heard.total()) {
                 0 => String::new(),
                 others => format!("; an earlier run analysed the other {others}"),
             },

@@ -1,7 +1,7 @@
 //! From the names and patterns in an experiment file to recordings on disk.
 
 use super::ExperimentSource;
-use crate::copies::refuse_copies;
+use crate::copies::{GIVE_ONE, refuse_copies};
 use crate::failure::Failure;
 use crate::files::{files_of, home_expanded, is_pattern, missing_folder};
 use crate::inputs::{is_stdin, name_of, recording_of_stdin};
@@ -105,7 +105,7 @@ pub(super) fn refuse_twice(jobs: &mut [LoadJob], source: &ExperimentSource) -> R
 /// What to do about two recordings that are the same, and in which file.
 pub(super) fn advice_on_copies(source: &ExperimentSource) -> (&'static str, Option<&Path>) {
     match source.typed {
-        Some(_) => ("give only one of them: leave the other out of the command, or move it out of its folder", None),
+        Some(_) => (GIVE_ONE, None),
         None => ("remove one of the two from the experiment file, or from the folder", Some(source.path.as_path())),
     }
 }
