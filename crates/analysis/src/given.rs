@@ -98,10 +98,13 @@ impl GivenFacts {
             )
         };
         let hint = |warning: &&Warning| match warning {
-            Warning::FitsElsewhere(_) if self.is_load => {
-                format!("check {}; check the mass of its load too", self.in_words("and"))
+            Warning::FitsElsewhere(_) => {
+                let load = if self.is_load { ", and the mass of its load" } else { "" };
+                format!(
+                    "check {}{load}; if nothing is wrong there, record again with the microphone nearer",
+                    self.in_words("and")
+                )
             }
-            Warning::FitsElsewhere(_) => format!("check {}", self.in_words("and")),
             warning if self.window && is_about_ridge(warning) => {
                 "leave --window-s out: hovertone then chooses a length that fits the tone".to_owned()
             }
@@ -167,7 +170,7 @@ mod tests {
     #[test]
     fn a_gear_is_blamed_only_where_one_was_given() {
         let left_out = Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() };
-        let hardly_heard = Warning::ManyGaps { gap_share: 0.9 };
+        let hardly_heard = Warning::ManyGaps { gap_share: 0.9, clear: None };
         let hints = |given: GivenFacts| given.hints(&[&left_out, &hardly_heard]);
         let nothing = GivenFacts::default();
         assert!(hints(nothing).iter().all(|hint| !hint.contains("gear")), "{:?}", hints(nothing));
@@ -197,7 +200,7 @@ mod tests {
         let warnings = [
             Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5, band_hz_low: 140.0, band_hz_high: 165.0 },
             Warning::FewHarmonicsAgree { used: 1, of: 3 },
-            Warning::ManyGaps { gap_share: 0.4 },
+            Warning::ManyGaps { gap_share: 0.4, clear: None },
             Warning::SeveralLines { spread_share: 0.02 },
             Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() },
         ];

@@ -1,7 +1,7 @@
 //! Warnings about a speed, each with a hint. They are values; nothing here prints.
 
-use crate::OtherRotor;
 use crate::rotors_not_apart::{not_apart_hint, not_apart_text};
+use crate::{OtherRotor, Span};
 use serde::Serialize;
 use std::fmt;
 
@@ -67,6 +67,8 @@ pub enum Warning {
     ManyGaps {
         /// Share of the frames without a point.
         gap_share: f64,
+        /// The longest part with few gaps, where it is long enough for a speed.
+        clear: Option<Span>,
     },
     /// Some samples have few frames.
     FewFrames {
@@ -115,7 +117,7 @@ pub const HEARD_SHARE_MIN: f64 = 0.3;
 impl Warning {
     /// Whether the tone is heard for so small a share of the time that it proves no order: other lines of another rotor may have told the speed.
     pub fn is_hardly_heard(&self) -> bool {
-        matches!(self, Self::ManyGaps { gap_share } if 1.0 - gap_share < HEARD_SHARE_MIN)
+        matches!(self, Self::ManyGaps { gap_share, .. } if 1.0 - gap_share < HEARD_SHARE_MIN)
     }
 
     /// Whether another warning about the same recording makes it needless: one for each harmonic would say the same several times.
@@ -233,9 +235,13 @@ impl fmt::Display for Warning {
                     hover is used as one sample"
                 )
             }
-            Self::ManyGaps { gap_share } => {
+            Self::ManyGaps { gap_share, clear } => {
                 write!(f, "the tone is not clear for {:.0} % of the time", 100.0 * gap_share)?;
-                if self.is_hardly_heard() { f.write_str(": the speed may come from another sound") } else { Ok(()) }
+                match clear {
+                    _ if self.is_hardly_heard() => f.write_str(": the speed may come from another sound"),
+                    Some(Span { from_s, to_s }) => write!(f, "; it is clearest from {from_s:.1} to {to_s:.1} s"),
+                    None => Ok(()),
+                }
             }
             Self::FewFrames { sample_s, needed_s: Some(needed_s), .. } => {
                 write!(f, "only {sample_s:.1} s of the sound are used, and a reliable ± needs {needed_s:.1} s or more")
@@ -259,7 +265,7 @@ impl fmt::Display for Warning {
             Self::OtherRotorsHeard { expected } => f.write_str(&others_heard_text(*expected)),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
-                "the sound contradicts the given facts: {blades} blades at {speed_rev_s:.1} rev/s are \
+                "the sound contradicts the given facts: by the sound alone, a rotor with {blades} blades at {speed_rev_s:.1} rev/s is \
                 more than 99 times as probable as any rotor that fits these facts"
             ),
             Self::SeveralLines { spread_share } => {

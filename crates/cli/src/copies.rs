@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::files::sha256_of_file;
 use crate::recording::Job;
 use hovertone_report::{Notice, SpeedRecord, counted};
+use hovertone_workflow::{same_recording_text, same_sound};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -58,7 +59,7 @@ pub(crate) fn refuse_copies<'a>(
                     true => format!(
                         "{first} is given twice: a recording that counts twice makes the uncertainty (±) too small"
                     ),
-                    false => same_recording(&first, &job.name),
+                    false => same_recording_text([&first, &job.name]),
                 };
                 return Err(Failure::Usage { what, hint: hint.to_owned(), path: path.map(Path::to_owned) });
             }
@@ -67,29 +68,13 @@ pub(crate) fn refuse_copies<'a>(
     Ok(())
 }
 
-/// Refuses two recordings in which exactly the same speed is heard: copies of one recording in two formats, or with other metadata.
-///
-/// Two flights never have the same speed to the last digit of a number.
+/// Refuses two recordings in which exactly the same speed is heard.
 pub(crate) fn refuse_equal_speeds<'a>(
     records: impl IntoIterator<Item = &'a SpeedRecord>,
     hint: &str,
     path: Option<&Path>,
 ) -> Result<(), Failure> {
-    let mut known: BTreeMap<[u64; 2], &str> = BTreeMap::new();
-    for record in records {
-        let Some(heard) = record.speed() else { continue };
-        let u_rev_s = heard.combined_std_uncertainty_rev_s().unwrap_or_default();
-        let digits = [heard.speed.rev_s(), u_rev_s].map(f64::to_bits);
-        if let Some(first) = known.insert(digits, &record.file) {
-            let what = same_recording(first, &record.file);
-            return Err(Failure::Usage { what, hint: hint.to_owned(), path: path.map(Path::to_owned) });
-        }
-    }
-    Ok(())
-}
-
-fn same_recording(first: &str, other: &str) -> String {
-    format!(
-        "{first} and {other} are the same recording: a recording that counts twice makes the uncertainty (±) too small"
-    )
+    let Some(names) = same_sound(records) else { return Ok(()) };
+    let what = same_recording_text(names);
+    Err(Failure::Usage { what, hint: hint.to_owned(), path: path.map(Path::to_owned) })
 }

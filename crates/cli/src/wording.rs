@@ -72,7 +72,7 @@ mod tests {
             Warning::FewHarmonicsAgree { used: 2, of: 3 },
             Warning::HoversDiffer { slowest_rev_s: 80.0, fastest_rev_s: 90.0 },
             Warning::HoverShorterThanSample { hover_s: 1.0, length_s: 5.0 },
-            Warning::ManyGaps { gap_share: 0.5 },
+            Warning::ManyGaps { gap_share: 0.5, clear: None },
             Warning::FewFrames { frame_count: 3, sample_s: 0.2, needed_s: Some(0.8) },
             Warning::FewFrames { frame_count: 3, sample_s: 5.0, needed_s: None },
             apart,

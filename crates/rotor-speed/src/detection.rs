@@ -133,9 +133,11 @@ pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> V
     if 2 * harmonic_count < ridges.len() || !ridges.iter().filter(used).any(|ridge| ridge.band.harmonic == 1) {
         warnings.push(Warning::FewHarmonicsAgree { used: harmonic_count, of: ridges.len() });
     }
-    let gap_share = ridges.iter().filter(used).map(|ridge| 1.0 - ridge.point_share()).fold(1.0, f64::min);
+    let clearest = ridges.iter().filter(used).max_by(|a, b| a.point_share().total_cmp(&b.point_share()));
+    let gap_share = clearest.map_or(1.0, |ridge| 1.0 - ridge.point_share());
     if gap_share > GAP_SHARE {
-        warnings.push(Warning::ManyGaps { gap_share });
+        let clear = clearest.and_then(|ridge| ridge.clearest_span(GAP_SHARE));
+        warnings.push(Warning::ManyGaps { gap_share, clear: clear.filter(|span| span.length_s() >= PART_S) });
     }
     // of the speed that is told: those of other methods beside it may follow other lines
     let spread_share = speeds.first().and_then(|speed| Some(speed.spread_rev_s? / speed.speed.rev_s()));

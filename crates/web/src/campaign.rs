@@ -9,7 +9,9 @@ use hovertone_page::SOUND_S_MAX;
 use hovertone_report::{
     InputRecord, Notice, Row, TextTable, Verdict, Wording, budget_table, constants_in_units, results_json, thrust_table,
 };
-use hovertone_workflow::{Drawn, Identified, ReportExtras, ReportFigures, Titles, drawing_of, simulators_of};
+use hovertone_workflow::{
+    Drawn, Identified, ReportExtras, ReportFigures, Titles, drawing_of, same_recording_text, same_sound, simulators_of,
+};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -45,6 +47,9 @@ pub(crate) fn identify(
         let record = files_heard.record_of_trial(trial.number, &trial.name, &config, clock_correction_ppm, &mut of_all);
         let record = record.worded(Wording::of_experiment(experiment.is_flight()));
         inputs.push(InputRecord { load: load.name.clone(), record, log: None });
+    }
+    if let Some(names) = same_sound(inputs.iter().map(|input| &input.record)) {
+        return Err(take_one_out(names));
     }
     let titles = Titles { file: EXPERIMENT.to_owned(), sha256: in_hexadecimal(&Sha256::digest(text.as_bytes())) };
     let method = experiment.config.method;
@@ -97,11 +102,14 @@ fn refuse_copies(files_heard: &mut HeardFiles, trials: &[PageTrial]) -> Result<(
         // a file that cannot be read is left to the analysis, which says why
         let Ok(sha256) = files_heard.sha256(trial.number) else { continue };
         if let Some(first) = known.insert(sha256, &trial.name) {
-            let what = format!("{first} and {} are the same recording", trial.name);
-            return Err(format!("{what}: counted twice, it would make the ± too small; take one of them out"));
+            return Err(take_one_out([first, &trial.name]));
         }
     }
     Ok(())
+}
+
+fn take_one_out(names: [&str; 2]) -> String {
+    format!("{}; take one of them out", same_recording_text(names))
 }
 
 impl LastIdentified {

@@ -5,9 +5,10 @@
 //! said         facts about vehicle and tone → settings of the analysis
 //! hearing      an open recording → its record           identified   records of an experiment → tables, results
 //! drawing      the same recording → pictures and sound  report       all of it → the report
-//! live         what is heard now, in words
+//! live         what is heard now, in words              copies       two records of one recording
 //! ```
 
+mod copies;
 mod drawing;
 mod hearing;
 mod identified;
@@ -15,6 +16,7 @@ mod live;
 mod report;
 mod said;
 
+pub use copies::{same_recording_text, same_sound};
 pub use drawing::{Drawing, drawing_of, trial_of};
 pub use hearing::{Heard, NotHeard, Requests, Share, Task, facts_of, failed_record, hear, notices_of, progress_of};
 pub use identified::{Identified, TipsTooFast, Titles};

@@ -212,7 +212,7 @@ fn fits_elsewhere(analysis: &SpeedAnalysis) -> Option<&Warning> {
 /// What the sound says where the tone of the given order is hardly heard, and what to do. `None` where it is heard.
 fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<String> {
     let gap_percent = record.analysis()?.warnings.iter().find_map(|warning| match warning {
-        Warning::ManyGaps { gap_share } if warning.is_hardly_heard() => Some(100.0 * gap_share),
+        Warning::ManyGaps { gap_share, .. } if warning.is_hardly_heard() => Some(100.0 * gap_share),
         _ => None,
     })?;
     let (order, rpm) = (record.order, record.speed()?.speed.rpm());

@@ -135,10 +135,13 @@ pub(super) fn notice_of(warning: &ThrustWarning, rows: &FittedRows<'_>) -> Notic
             let no_speed = if rows.has_speed_std {
                 ""
             } else {
-                "; or the speeds are uncertain too: add a column such as speed_std_rpm"
+                "; if the speeds are uncertain too, add their uncertainties, as in a column speed_std_rpm"
             };
-            let hint =
-                format!("{}; or the uncertainties in {} are too small{no_speed}", warning.hint(), stated.join(" or "));
+            let hint = format!(
+                "{}; if nothing is wrong there, the uncertainties in column {} may be too small{no_speed}",
+                warning.hint(),
+                stated.join(" or ")
+            );
             Notice::new(warning.to_string(), hint)
         }
         _ => Notice::from(warning),
@@ -222,7 +225,7 @@ mod tests {
         assert!(
             notice_of(&of_rows, &rows(&columns, "rpm"))
                 .hint
-                .contains("; or the uncertainties in thrust_std_g are too small; or the speeds are uncertain too")
+                .contains("; if nothing is wrong there, the uncertainties in column thrust_std_g may be too small; if the speeds are uncertain too, add")
         );
         assert_eq!(notice_of(&of_rows, &rows(&[], "rpm")), Notice::from(&of_rows));
         // a table has rows, not loads

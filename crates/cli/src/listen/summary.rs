@@ -304,8 +304,8 @@ mod tests {
         };
         let (is_settled, words) = with_contradicted(40);
         assert!(!is_settled && words.starts_with("mean: 60.00"), "{words}");
-        let because = "from 4.0 s of 4.0 s; do not use this mean, because the sound contradicts --vehicle crazyflie: 2 blades at \
-                       30.0 rev/s are more than 99 times as probable as any rotor that fits these facts; check --vehicle crazyflie\n";
+        let because = "from 4.0 s of 4.0 s; do not use this mean, because the sound contradicts --vehicle crazyflie: by the sound alone, a rotor with 2 blades at \
+                       30.0 rev/s is more than 99 times as probable as any rotor that fits these facts; check --vehicle crazyflie\n";
         assert!(words.ends_with(because), "{words}");
         let (is_settled, words) = with_contradicted(10);
         assert!(is_settled && !words.contains("contradicts"), "{words}");

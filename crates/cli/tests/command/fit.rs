@@ -188,7 +188,7 @@ fn rows_that_contradict_each_other_are_no_complete_answer() {
     fs::write(&table, "rpm,thrust_n,thrust_std_n\n3000,0.511,0.003\n3000,0.6,0.003\n6000,2.3,0.003\n6000,2.05,0.003\n")
         .unwrap();
     let run = hovertone(&["fit", text(&table)]).ends_with(3);
-    assert!(run.stderr.contains("the rows do not fit each other"), "{}", run.stderr);
+    assert!(run.stderr.contains("no single C_f in F = C_f ω² fits these rows: line 2, line 3"), "{}", run.stderr);
 }
 
 #[test]

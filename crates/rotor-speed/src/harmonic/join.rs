@@ -5,9 +5,9 @@
 //! the next. The difference of the two is a *step* at the border. With these steps, the number of turns over many blocks is as
 //! certain as the angle of the shaft at both ends, however the speed varied in between.
 
-use super::block::{BlockFit, BlockSlices, LineSum};
+use super::block::{BlockFit, LineSum};
 use super::demodulation::Line;
-use super::partition::{Partition, halved, likelihood_min, polished};
+use super::partition::{Partition, PartitionWithSums, halved, likelihood_min, polished};
 use super::phasors::small_turn;
 use super::speed_path::SpeedPath;
 use realfft::num_complex::Complex;
@@ -28,7 +28,9 @@ const REACH_STDS: f64 = 6.0;
 const BEND_PHASE_RAD: f64 = 0.1;
 /// Points of the search grid in a cycle of the highest line. *Numeric.*
 const GRID_PER_CYCLE: f64 = 12.0;
-/// Steps of Newton's method from the best grid point. *Numeric.*
+/// Change that is Newton's last one, in steps of the grid: the next one would be below 1e-6 of them. *Numeric.*
+const LAST_CHANGE_GRID_STEPS: f64 = 1e-3;
+/// Most steps of Newton's method from the best grid point. *Numeric.*
 const NEWTON_STEPS: u32 = 6;
 /// Smallest log odds of the most likely step over the second: below, and where the lines do not agree, the step stays unknown.
 /// *Decision.*
@@ -87,11 +89,9 @@ pub(crate) fn joined_variance_turns2(ends: [EndBlock; 2], steps_turns: &[f64]) -
 /// Steps grow with the curvature of the speed where blocks are long, and with noise where they are short. The given partition has about
 /// the longest blocks that straight lines of speed explain.
 pub(crate) fn joined(lines: &[Line], path: &SpeedPath, partition: &Partition) -> Partition {
-    let mut best = polished(lines, path, partition);
-    join(lines, path, &mut best);
+    let mut best = with_steps(path, polished(lines, path, partition));
     while let Some(variance) = turns_variance(&best, path.tick_s) {
-        let mut finer = halved(lines, path, &best);
-        join(lines, path, &mut finer);
+        let finer = with_steps(path, halved(lines, path, &best));
         if finer.blocks.len() == best.blocks.len()
             || turns_variance(&finer, path.tick_s).is_none_or(|finer| finer >= FINER_RATIO * variance)
         {
@@ -116,36 +116,21 @@ fn end_block(block: &BlockFit, tick_s: f64) -> EndBlock {
     EndBlock { length_s, speed_variance: block.phase_scatter / block.information, is_faded: true }
 }
 
-/// Writes the step to the next block into each block, where the phases determine it.
-fn join(lines: &[Line], path: &SpeedPath, partition: &mut Partition) {
-    let threshold = likelihood_min(lines.len());
-    let middles: Vec<Middle> = partition.blocks.iter().map(|block| Middle::of(block, lines, path)).collect();
+/// The partition with the step to the next block in each block, where the phases determine it.
+fn with_steps(path: &SpeedPath, (mut partition, sums): PartitionWithSums) -> Partition {
     let steps: Vec<Option<f64>> = partition
         .blocks
         .windows(2)
-        .zip(middles.windows(2))
-        .map(|(blocks, middles)| {
-            let are_heard = blocks.iter().all(|block| block.likelihood >= threshold);
-            are_heard.then(|| step_between([&blocks[0], &blocks[1]], [&middles[0], &middles[1]], path))?
+        .zip(sums.windows(2))
+        .map(|(blocks, sums)| {
+            let are_heard = blocks.iter().zip(sums).all(|(block, sums)| block.likelihood >= likelihood_min(sums.len()));
+            are_heard.then(|| step_between([&blocks[0], &blocks[1]], [&sums[0], &sums[1]], path))?
         })
         .collect();
     for (block, step) in partition.blocks.iter_mut().zip(steps) {
         block.step_to_next_turns = step;
     }
-}
-
-/// The lines of a block, referred to the angle of the path in its middle.
-struct Middle {
-    sums: Vec<LineSum>,
-    /// Angle of the path in the middle of the block.
-    turns: f64,
-}
-
-impl Middle {
-    fn of(block: &BlockFit, lines: &[Line], path: &SpeedPath) -> Self {
-        let slices = BlockSlices::new(lines, path, block.ticks(), block.speed_line());
-        Self { sums: slices.line_sums(), turns: path.turns_at(block.middle_s(path.tick_s)) }
-    }
+    partition
 }
 
 /// Evidence of one line on a step: its phase advances by `rad_per_turn` times the step, and `product` is its sum in the second block
@@ -155,16 +140,17 @@ struct StepLine {
     product: Complex<f64>,
 }
 
-fn step_between(blocks: [&BlockFit; 2], middles: [&Middle; 2], path: &SpeedPath) -> Option<f64> {
+/// The step between two blocks, from the sums of their lines, which are referred to the angle of the path in the middle of each block.
+fn step_between(blocks: [&BlockFit; 2], sums: [&[LineSum]; 2], path: &SpeedPath) -> Option<f64> {
+    let turns = blocks.map(|block| path.turns_at(block.middle_s(path.tick_s)));
     let half_s = blocks.map(|block| (block.tick_to - block.tick_from) as f64 * path.tick_s / 2.0);
     // turns from the middle of each block to the border, by its own line of speed
     let after = half_s[0] * (blocks[0].speed_rev_s + blocks[0].slope_rev_s2 * half_s[0] / 2.0);
     let before = half_s[1] * (blocks[1].speed_rev_s - blocks[1].slope_rev_s2 * half_s[1] / 2.0);
-    let along_path = (middles[1].turns - before) - (middles[0].turns + after);
-    let lines: Vec<StepLine> = middles[0]
-        .sums
+    let along_path = (turns[1] - before) - (turns[0] + after);
+    let lines: Vec<StepLine> = sums[0]
         .iter()
-        .zip(&middles[1].sums)
+        .zip(sums[1])
         .map(|(LineSum { order, sum: first }, LineSum { sum: second, .. })| StepLine {
             rad_per_turn: TAU * order,
             product: second * first.conj() * cycles(order * along_path),
@@ -205,7 +191,11 @@ fn most_likely_step(lines: &[StepLine], std_turns: f64) -> Option<f64> {
         if curvature <= 0.0 {
             break;
         }
-        step += (gradient / curvature).clamp(-grid_step, grid_step);
+        let change = (gradient / curvature).clamp(-grid_step, grid_step);
+        step += change;
+        if change.abs() < LAST_CHANGE_GRID_STEPS * grid_step {
+            break;
+        }
     }
     Some(step)
 }
@@ -217,23 +207,17 @@ fn cycles(cycles: f64) -> Complex<f64> {
 
 /// Log likelihood of each step on a grid of `points` points to either side of 0.
 fn step_likelihoods(lines: &[StepLine], std_turns: f64, grid_step: f64, points: i32) -> Vec<f64> {
-    let mut turning: Vec<FourLines> = lines
-        .chunks(4)
-        .map(|lines| {
-            let mut four = FourLines::default();
-            for (lane, StepLine { rad_per_turn: w, product }) in lines.iter().enumerate() {
-                four.set(lane, product * cycles(w * f64::from(points) * grid_step / TAU), cycles(-w * grid_step / TAU));
-            }
-            four
-        })
-        .collect();
-    (-points..=points)
-        .map(|point| {
-            let mut sums = [0.0; 4];
-            turning.iter_mut().for_each(|four| four.add_and_turn(&mut sums));
-            sums.iter().sum::<f64>() - (f64::from(point) * grid_step / std_turns).powi(2) / 2.0
-        })
-        .collect()
+    let mut sums = vec![[0.0; 4]; (2 * points + 1) as usize];
+    for lines in lines.chunks(4) {
+        let mut four = FourLines::default();
+        for (lane, StepLine { rad_per_turn: w, product }) in lines.iter().enumerate() {
+            four.set(lane, product * cycles(w * f64::from(points) * grid_step / TAU), cycles(-w * grid_step / TAU));
+        }
+        // all points of four lines, which stay in the registers of the processor
+        sums.iter_mut().for_each(|sums| four.add_and_turn(sums));
+    }
+    let prior_nats = |point: i32| (f64::from(point) * grid_step / std_turns).powi(2) / 2.0;
+    (-points..=points).zip(sums).map(|(point, sums)| sums.iter().sum::<f64>() - prior_nats(point)).collect()
 }
 
 /// Four complex numbers that turn, each by a step of its own, with real and imaginary parts apart: the processor computes them in parallel.

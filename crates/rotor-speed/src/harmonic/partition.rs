@@ -6,7 +6,9 @@
 //! with the greatest evidence is taken: the sum over its blocks of the log likelihood, less the expectation and five standard
 //! deviations of the value that noise alone gives.
 
-use super::block::{BlockFit, BlockSlices, Expansion, HALF_HOP_TICKS, SpeedLine, best_on_grid, step_to_summit};
+use super::block::{
+    BlockFit, BlockSlices, Expansion, HALF_HOP_TICKS, LineSum, SpeedLine, best_on_grid, step_to_summit,
+};
 use super::demodulation::Line;
 use super::speed_map::FRAME_HOPS;
 use super::speed_path::{SpeedPath, SpeedPoint};
@@ -115,7 +117,10 @@ pub(crate) fn first_partition(lines: &[Line], path: &SpeedPath) -> Partition {
 pub(crate) fn best_partition(lines: &[Line], path: &SpeedPath, coarse: &Partition) -> Partition {
     let whole = partition(lines, path, 1, NEXT_GUESS_CELLS, |ticks| guess_from_blocks(&coarse.blocks, path, ticks));
     if whole.evidence > coarse.evidence {
-        return best_of(whole, |longer| Some(halved(lines, path, longer)));
+        return best_of(whole, |longer| {
+            let guess = |ticks: Range<usize>| guess_from_longer(longer, path, ticks);
+            Some(partition(lines, path, half_lengths(path, longer), 0.0, guess))
+        });
     }
     doubled_partition(lines, path)
 }
@@ -244,29 +249,43 @@ pub(crate) fn blocks_between(lines: &[Line], path: &SpeedPath, partition: &Parti
         .collect()
 }
 
+/// A partition, and the sums of the lines of each of its blocks.
+pub(crate) type PartitionWithSums = (Partition, Vec<Vec<LineSum>>);
+
 /// The same blocks, fitted again from their own speeds.
-pub(crate) fn polished(lines: &[Line], path: &SpeedPath, partition: &Partition) -> Partition {
-    let blocks = partition
-        .blocks
-        .iter()
-        .map(|block| BlockSlices::new(lines, path, block.ticks(), block.speed_line()).fit(0.0))
-        .collect();
-    Partition::new(blocks, lines)
+pub(crate) fn polished(lines: &[Line], path: &SpeedPath, partition: &Partition) -> PartitionWithSums {
+    let blocks = partition.blocks.iter();
+    with_sums(lines, blocks.map(|block| BlockSlices::new(lines, path, block.ticks(), block.speed_line())))
 }
 
 /// Blocks of half the length, from the speeds of the longer ones.
-pub(crate) fn halved(lines: &[Line], path: &SpeedPath, longer: &Partition) -> Partition {
-    let count = (2 * longer.blocks.len()).min(path.ticks().div_ceil(HALF_HOP_TICKS));
-    let guess = |ticks: Range<usize>| {
-        let middle_s = (ticks.start + ticks.end) as f64 / 2.0 * path.tick_s;
-        let distance = |block: &&BlockFit| (block.middle_s(path.tick_s) - middle_s).abs();
-        let nearest = longer.blocks.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        nearest.map_or_else(
-            || guess_from_path(path, ticks),
-            |block| SpeedLine { speed_rev_s: block.speed_at(middle_s, path.tick_s), ..block.speed_line() },
-        )
-    };
-    partition(lines, path, count, 0.0, guess)
+pub(crate) fn halved(lines: &[Line], path: &SpeedPath, longer: &Partition) -> PartitionWithSums {
+    let blocks = block_ticks(path.ticks(), half_lengths(path, longer));
+    with_sums(
+        lines,
+        blocks.map(|ticks| BlockSlices::new(lines, path, ticks.clone(), guess_from_longer(longer, path, ticks))),
+    )
+}
+
+fn with_sums(lines: &[Line], blocks: impl Iterator<Item = BlockSlices>) -> PartitionWithSums {
+    let (blocks, sums) = blocks.map(|block| block.fit_with_sums()).unzip();
+    (Partition::new(blocks, lines), sums)
+}
+
+/// The number of blocks of half the length.
+fn half_lengths(path: &SpeedPath, longer: &Partition) -> usize {
+    (2 * longer.blocks.len()).min(path.ticks().div_ceil(HALF_HOP_TICKS))
+}
+
+/// The line of speed of the nearest of some longer blocks.
+fn guess_from_longer(longer: &Partition, path: &SpeedPath, ticks: Range<usize>) -> SpeedLine {
+    let middle_s = (ticks.start + ticks.end) as f64 / 2.0 * path.tick_s;
+    let distance = |block: &&BlockFit| (block.middle_s(path.tick_s) - middle_s).abs();
+    let nearest = longer.blocks.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.map_or_else(
+        || guess_from_path(path, ticks),
+        |block| SpeedLine { speed_rev_s: block.speed_at(middle_s, path.tick_s), ..block.speed_line() },
+    )
 }
 
 /// A partition into `count` blocks, each fitted around its guess on a grid of `grid_cells` resolution cells to either side.

@@ -18,10 +18,12 @@ const SINE: [f64; 4] = [1.0 / 6.0, 1.0 / (4.0 * 5.0), 1.0 / (6.0 * 7.0), 1.0 / (
 const SQUARED_TURN: f64 = 32.0 * SMALL_TURN;
 
 /// `exp(j angle)`, fast for an angle in rad of less than half a turn.
+#[inline]
 pub(crate) fn small_turn(angle: f64) -> Complex<f64> {
-    if angle.abs() <= SMALL_TURN {
-        return by_series(angle);
-    }
+    if angle.abs() <= SMALL_TURN { by_series(angle) } else { wide_turn(angle) }
+}
+
+fn wide_turn(angle: f64) -> Complex<f64> {
     if angle.abs() > SQUARED_TURN {
         return Complex::from_polar(1.0, angle);
     }
@@ -37,6 +39,7 @@ pub(crate) fn small_turn(angle: f64) -> Complex<f64> {
     turn
 }
 
+#[inline]
 fn by_series(angle: f64) -> Complex<f64> {
     let x2 = angle * angle;
     // in Horner form

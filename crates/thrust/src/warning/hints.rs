@@ -91,7 +91,7 @@ impl ThrustWarning {
 /// What to check where one load or row does not fit the others.
 fn misfit_hint(is_row: bool, has_mass: bool, is_left_out: bool) -> &'static str {
     match (is_row, is_left_out, has_mass) {
-        (true, ..) => "check the unit, the zero of the scale and the propeller of such a row",
+        (true, ..) => "check the unit, the zero of the scale and the propeller of this row",
         (false, true, _) => "check the mass of this load, its unit and recordings",
         (false, false, true) => "weigh that load again, and check that it does not block the air of the rotors",
         (false, false, false) => "check the thrust and the recordings of that load",

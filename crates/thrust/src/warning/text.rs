@@ -16,8 +16,12 @@ impl fmt::Display for ThrustWarning {
                 f.write_str(&misfit_text(name, *is_row, that_fits, *is_left_out))
             }
             Self::LoadsDisagree { names, are_rows, masses_that_fit_kg, .. } => {
-                let noun = if *are_rows { "rows" } else { "loads" };
-                write!(f, "the {noun} do not fit each other: {}{}", first_names(names), either_mass_text(names, masses_that_fit_kg))
+                let rows_or_loads = if *are_rows {
+                    "no single C_f in F = C_f ω² fits these rows"
+                } else {
+                    "the loads do not fit each other"
+                };
+                write!(f, "{rows_or_loads}: {}{}", first_names(names), either_mass_text(names, masses_that_fit_kg))
             }
             Self::TrialFarFromOthers { load, recording, thrust_share } => {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };

@@ -26,10 +26,10 @@ const GRID_PER_CELL: f64 = 3.0;
 const NEWTON_STEPS: u32 = 8;
 /// Largest number of times that a step of Newton's method is halved until it climbs. *Numeric.*
 const HALVINGS_MAX: u32 = 4;
-/// Step at which Newton's method ends, in resolution cells of the speed, and of its change over the block: it converges quadratically, and the step
-/// after this one would be below 1e-5. *Numeric.*
+/// Step that is Newton's last one, in resolution cells of the speed, and of its change over the block: the method converges quadratically, and the
+/// step after this one would be below 1e-5. *Numeric.*
 const STEP_MIN_CELLS: f64 = 1e-3;
-/// The same of a speed whose steps had to be halved, or whose slope is not found yet. *Numeric.*
+/// The same where the likelihood is not concave, or where the slope is not found yet. *Numeric.*
 const SURE_STEP_MIN_CELLS: f64 = 1e-6;
 /// Largest step of the slope, as a change of speed over the block in resolution cells. *Numeric.*
 const SLOPE_STEP_CELLS_MAX: f64 = 4.0;
@@ -135,6 +135,12 @@ impl BlockSlices {
         }
     }
 
+    /// The same near a good guess, with the sums of the lines along the speed that is found.
+    pub(crate) fn fit_with_sums(&self) -> (BlockFit, Vec<LineSum>) {
+        let block = self.fit(0.0);
+        (block, self.line_sums(block.speed_line()))
+    }
+
     /// Newton's method on J less the prior of the slope, from a difference of speed. Steps are halved until they climb.
     fn climbed(&self, start: f64) -> Summit {
         let slope_std_rev_s2 = SLOPE_STD_SHARE_PER_S * self.guess.speed_rev_s;
@@ -150,10 +156,19 @@ impl BlockSlices {
             let h = [here.second[0], here.second[1], here.second[2] - prior];
             // where J is not concave, a fixed step uphill
             let uphill = (g0.signum() * UPHILL_CELLS * cell, 0.0);
-            let (step_speed, step_slope) = step_to_summit([g0, g1], h).unwrap_or(uphill);
+            let to_summit = step_to_summit([g0, g1], h);
+            let is_concave = to_summit.is_some();
+            let (step_speed, step_slope) = to_summit.unwrap_or(uphill);
             // J repeats itself far away, because slices have a finite length: a step must not reach that far
             let mut step_speed = step_speed.clamp(-cell, cell);
             let mut step_slope = step_slope.clamp(-slope_step_max, slope_step_max);
+            if is_concave
+                && step_speed.abs() < STEP_MIN_CELLS * cell
+                && step_slope.abs() * self.length_s < STEP_MIN_CELLS * cell
+            {
+                let value = here.value_after(step_speed, step_slope);
+                return Summit { d_speed: d_speed + step_speed, d_slope: d_slope + step_slope, value };
+            }
             let before = penalised(here.value, d_slope);
             let mut halvings = 0;
             loop {
@@ -165,9 +180,7 @@ impl BlockSlices {
                 }
                 (step_speed, step_slope, halvings) = (step_speed / 2.0, step_slope / 2.0, halvings + 1);
             }
-            let step_cells = step_speed.abs() / cell;
-            let is_quadratic = halvings == 0 && step_slope.abs() * self.length_s < STEP_MIN_CELLS * cell;
-            if step_cells < SURE_STEP_MIN_CELLS || is_quadratic && step_cells < STEP_MIN_CELLS {
+            if step_speed.abs() < SURE_STEP_MIN_CELLS * cell {
                 break;
             }
         }

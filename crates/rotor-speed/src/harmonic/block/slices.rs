@@ -53,6 +53,15 @@ pub(crate) struct Expansion {
     pub(crate) second: [f64; 3],
 }
 
+impl Expansion {
+    /// J after a small step of speed and slope.
+    pub(super) fn value_after(&self, speed: f64, slope: f64) -> f64 {
+        let [nn, ng, gg] = self.second;
+        let bend = nn * speed * speed + 2.0 * ng * speed * slope + gg * slope * slope;
+        self.value + self.gradient[0] * speed + self.gradient[1] * slope + bend / 2.0
+    }
+}
+
 impl BlockSlices {
     /// The slices of a block of `ticks`, demodulated along the line of speed `guess` instead of along `path`.
     pub(crate) fn new(lines: &[Line], path: &SpeedPath, ticks: Range<usize>, guess: SpeedLine) -> Self {
@@ -102,20 +111,28 @@ impl BlockSlices {
         self.lines.iter().zip(self.sums.chunks_exact(self.times_s.len()))
     }
 
-    /// The sum of each line at the guess over √(N V): the square of its magnitude is J.
-    pub(crate) fn line_sums(&self) -> Vec<LineSum> {
+    /// The sum of each line along a line of speed near the guess, over √(N V): the square of its magnitude is J.
+    pub(super) fn line_sums(&self, along: SpeedLine) -> Vec<LineSum> {
+        let turns =
+            self.turns(along.speed_rev_s - self.guess.speed_rev_s, along.slope_rev_s2 - self.guess.slope_rev_s2);
+        let mut phasors = OrderPhasors::new(&turns);
         self.lines()
-            .map(|(line, sums)| LineSum {
-                order: line.order,
-                sum: line.scale.sqrt() * sums.iter().sum::<Complex<f64>>(),
+            .map(|(&BlockLine { order, scale, .. }, sums)| {
+                let sum: Complex<f64> = sums.iter().zip(phasors.of(order)).map(|(z, phasor)| z * phasor).sum();
+                LineSum { order, sum: scale.sqrt() * sum }
             })
             .collect()
+    }
+
+    /// Angle of the shaft in the middle of each slice, in turns, ahead of the guess.
+    fn turns(&self, d_speed: f64, d_slope: f64) -> Vec<f64> {
+        self.times_s.iter().map(|t| t * (d_speed + d_slope * t / 2.0)).collect()
     }
 
     /// J and its derivatives at a difference of speed and slope from the guess.
     pub(crate) fn expansion(&self, d_speed: f64, d_slope: f64) -> Expansion {
         let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);
-        let turns: Vec<f64> = self.times_s.iter().map(|t| t * (d_speed + d_slope * t / 2.0)).collect();
+        let turns = self.turns(d_speed, d_slope);
         let powers: Vec<[f64; 5]> = self.times_s.iter().map(|t| [1.0, *t, t * t, t * t * t, t * t * t * t]).collect();
         let mut phasors = OrderPhasors::new(&turns);
         for (&BlockLine { order, scale, .. }, sums) in self.lines() {
