@@ -5,6 +5,7 @@ use crate::printable::printable;
 use crate::quote::{counted, tone_of_order};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
+use hovertone_analysis::Method;
 use hovertone_thrust::Force;
 use hovertone_vehicle::Order;
 
@@ -59,8 +60,8 @@ pub struct PlannedExperiment<'a> {
     pub order: Order,
     /// Diameter of the propellers, where known.
     pub propeller_diameter_m: Option<f64>,
-    /// Name of the method.
-    pub method: &'a str,
+    /// How the speeds will be found.
+    pub method: Method,
     /// The loads.
     pub loads: Vec<PlannedLoad>,
 }
@@ -73,13 +74,18 @@ pub fn planned_experiment_text(plan: &PlannedExperiment<'_>, width: Option<usize
     };
     let heard = plan.loads.iter().map(|load| load.recordings.len()).sum();
     let mut text = format!(
-        "{}: {}, {}, {diameter}; {}, {}; method: {}\n\n",
+        "{}: {}, {}, {diameter}; {}, {}; without --check, hovertone finds {} (method: {})\n\n",
         printable(plan.vehicle_name),
         counted(plan.rotor_count as usize, "rotor"),
         tone_of_order(plan.order),
         counted(plan.loads.len(), "load"),
         counted(heard, "recording"),
-        plan.method.replace('_', " "),
+        if plan.method == Method::Separated {
+            "the speed of each rotor in each recording"
+        } else {
+            "one rotor speed in each recording"
+        },
+        plan.method.name().replace('_', " "),
     );
     let columns = vec![
         Column::words("load"),
@@ -149,7 +155,7 @@ mod tests {
             rotor_count: 4,
             order: Order::new(2.0).unwrap(),
             propeller_diameter_m: None,
-            method: "maximum_trace",
+            method: Method::MaximumTrace,
             loads: vec![
                 load(
                     "hull",
@@ -161,7 +167,7 @@ mod tests {
         };
         let text = planned_experiment_text(&plan, None);
         for words in [
-            "4 rotors, tone at 2 times the rotor speed, diameter of the propellers not known; 2 loads, 2 recordings; method: maximum trace",
+            "4 rotors, tone at 2 times the rotor speed, diameter of the propellers not known; 2 loads, 2 recordings; without --check, hovertone finds one rotor speed in each recording (method: maximum trace)",
             "0.444",
             "1:02",
             "44.1 kHz, 1 channel",

@@ -135,10 +135,10 @@ pub(super) fn notice_of(warning: &ThrustWarning, rows: &FittedRows<'_>) -> Notic
             let no_speed = if rows.has_speed_std {
                 ""
             } else {
-                "; if the speeds are uncertain too, add their uncertainties, as in a column speed_std_rpm"
+                "; if the speeds are uncertain too, add a column with their uncertainties, for example speed_std_rpm"
             };
             let hint = format!(
-                "{}; if nothing is wrong there, the uncertainties in column {} may be too small{no_speed}",
+                "{}; if nothing is wrong there, the uncertainties in column {} may be too small: check them{no_speed}",
                 warning.hint(),
                 stated.join(" or ")
             );
@@ -225,7 +225,7 @@ mod tests {
         assert!(
             notice_of(&of_rows, &rows(&columns, "rpm"))
                 .hint
-                .contains("; if nothing is wrong there, the uncertainties in column thrust_std_g may be too small; if the speeds are uncertain too, add")
+                .contains("; if nothing is wrong there, the uncertainties in column thrust_std_g may be too small: check them; if the speeds are uncertain too, add")
         );
         assert_eq!(notice_of(&of_rows, &rows(&[], "rpm")), Notice::from(&of_rows));
         // a table has rows, not loads

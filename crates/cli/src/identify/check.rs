@@ -48,7 +48,7 @@ pub(super) fn run(
         rotor_count: experiment.rotor_count,
         order: experiment.config.tone.order,
         propeller_diameter_m: experiment.propeller_diameter_m,
-        method: arguments.method.unwrap_or(experiment.config.method).name(),
+        method: arguments.method.unwrap_or(experiment.config.method),
         loads,
     };
     terminal.text(&planned_experiment_text(&plan, terminal.fold_width()))?;
