@@ -277,6 +277,6 @@ fn simulator_lines(constants: &MotorConstants) -> String {
     };
     let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
     format!(
-        "\nlines to copy into a model of Gazebo or PX4, in s and rad/s (maxRotVelocity: the largest speed that lasts in this file; perhaps the motor can turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n{missing}"
+        "\nlines to copy into a model of Gazebo or PX4, in s and rad/s (maxRotVelocity: the highest speed that the motor held for some time in the given file; perhaps it can turn faster)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n{missing}"
     )
 }
