@@ -74,16 +74,16 @@ pub fn planned_experiment_text(plan: &PlannedExperiment<'_>, width: Option<usize
     };
     let heard = plan.loads.iter().map(|load| load.recordings.len()).sum();
     let mut text = format!(
-        "{}: {}, {}, {diameter}; {}, {}; without --check, hovertone finds {} (method: {})\n\n",
+        "{}: {}, {}, {diameter}; {}, {}; without --check, hovertone finds {} in each recording (method: {})\n\n",
         printable(plan.vehicle_name),
         counted(plan.rotor_count as usize, "rotor"),
         tone_of_order(plan.order),
         counted(plan.loads.len(), "load"),
         counted(heard, "recording"),
         if plan.method == Method::Separated {
-            "the speed of each rotor in each recording"
+            "the speed of each rotor, or their mean where it cannot separate them,"
         } else {
-            "one rotor speed in each recording"
+            "one rotor speed"
         },
         plan.method.name().replace('_', " "),
     );

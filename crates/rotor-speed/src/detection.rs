@@ -2,6 +2,7 @@
 
 use crate::hover::HoverConfig;
 use crate::survey::Survey;
+use crate::thresholds::{FEW, HELD_S, MANY, MOST};
 use crate::tone::ToneConfig;
 use hovertone_analysis::{
     Band, CutReason, Hover, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, TrackPoint,
@@ -12,18 +13,18 @@ use hovertone_signal::statistics::mean;
 /// Frame lengths whose share of lines differs by less than this are equally clear, and the longest, which resolves most,
 /// is taken. Where rotors part or wander, lines get fewer with length, so that clarity itself keeps frames short. *Decision.*
 const EQUALLY_CLEAR_SHARE: f64 = 0.01;
-/// A ridge on the edge of its band in more frames than this is not in its band. *Decision.*
-const EDGE_SHARE: f64 = 0.2;
-/// More gaps than this are said. *Decision.*
-const GAP_SHARE: f64 = 0.3;
+/// A ridge on the edge of its band in more frames than this is not in its band.
+const EDGE_SHARE: f64 = FEW;
+/// More gaps than this are said.
+const GAP_SHARE: f64 = MANY;
 /// A spread of twice the paper's (1.2 to 1.3 %) means more than one line. *Decision.*
 const SPREAD_SHARE: f64 = 0.025;
 /// A sample of fewer frames has a mean that one bad frame spoils. *Decision.*
 const FEW_FRAMES: usize = 8;
-/// Shortest part of a hover that has a speed of its own, s. *Decision.*
-const PART_S: f64 = 2.0;
-/// Another speed is worth a warning when it lasts this share of the hover. *Decision.*
-const OTHER_SPEED_LENGTH_SHARE: f64 = 0.5;
+/// Shortest part of a hover that has a speed of its own, s.
+const PART_S: f64 = HELD_S;
+/// Another speed is worth a warning when it lasts this share of the hover.
+const OTHER_SPEED_LENGTH_SHARE: f64 = MOST;
 
 /// The ridges of the frame length that shows lines in most frames; among those equally clear, of the longest.
 pub(crate) fn clearest_ridges(ladder: &[Vec<Ridge>]) -> Option<&Vec<Ridge>> {

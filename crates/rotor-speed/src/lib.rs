@@ -20,6 +20,7 @@ mod rotors;
 mod speed;
 mod stages;
 mod survey;
+mod thresholds;
 mod tone;
 
 pub use config::Config;

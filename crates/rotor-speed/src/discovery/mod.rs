@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::pipeline::{passes_after_survey, passes_of_speed, speed_of_heard_rotor};
 use crate::stages::{HeardRotor, Silence, Surveyed, at_ratio, heard_instead, survey_from_source};
 use crate::survey::{RowSettings, RowsBuilder, Survey};
+use crate::thresholds::BELOW_OCTAVE;
 use crate::tone::{DiscoveryConfig, families_from_surveys, reading_at, search_range_rev_s};
 use by_beliefs::{Believed, BelievedSpeed, SAME_LINE_SHARE};
 use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, Remark, SpeedAnalysis, SpeedEstimate, ToneFamily};
@@ -21,8 +22,8 @@ use serde::Serialize;
 const DETAIL_ROWS_MAX: usize = 64;
 /// Frames of the finer spectrum to a row. They follow each other without overlap, which costs half as much. *Numeric.*
 const DETAIL_FRAMES: f64 = 2.0;
-/// Other speeds of the same rotor are looked for up to this factor: below an octave, so that it stays as it is. *Decision.*
-const OTHER_SPEED_FACTOR: f64 = 1.9;
+/// Other speeds of the same rotor are looked for up to this factor: below an octave, so that it stays as it is.
+const OTHER_SPEED_FACTOR: f64 = BELOW_OCTAVE;
 
 /// What is looked for, and what is known beforehand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

@@ -5,6 +5,7 @@ use super::level_table::{Level, LevelTable, UNKNOWN};
 use super::near_floor::{NearFloor, levels_over};
 use super::pauses::{drop_rests, quiet_frames};
 use super::rounding::Rounding;
+use crate::thresholds::STEADY_FRAME_S;
 use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::{RECORDED_RATE_SHARE, SteadyLines};
 use std::f64::consts::{LN_2, PI};
@@ -13,8 +14,8 @@ use std::sync::Arc;
 
 /// Length of a short frame, s. Most rotors in flight are clearest in 0.1 s: their speeds wander by 1 to 3 %. *Decision.*
 const SHORT_S: f64 = 0.1;
-/// Length of a long frame, s. Steady rotors, and several at once, are clearest in 0.4 s. *Decision.*
-pub(super) const LONG_S: f64 = 0.4;
+/// Length of a long frame, s. Steady rotors, and several at once, are clearest in 0.4 s.
+pub(super) const LONG_S: f64 = STEADY_FRAME_S;
 /// Step between short frames, s. *Numeric.*
 pub(super) const HOP_S: f64 = 0.05;
 /// Steps between short frames to a step between long ones. *Numeric.*

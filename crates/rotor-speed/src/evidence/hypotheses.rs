@@ -6,14 +6,13 @@ use super::levels::levels_of_lines;
 use super::prior::odds_nats;
 use super::rotor_lines::RotorLines;
 use super::search::{Multiple, ROTORS_APART, VOTES_NATS_APART, is_family};
+use crate::thresholds::{HOVER_WIDTH_SHARE, NEARLY_ALL};
 use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
 
-/// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats. *Decision.*
-const OTHER_VOTES_SHARE_MIN: f64 = 0.8;
-/// Width of the speeds of a hover, as a share. *Decision.*
-const HOVER_WIDTH_SHARE: f64 = 0.024;
+/// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats.
+const OTHER_VOTES_SHARE_MIN: f64 = NEARLY_ALL;
 /// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
 /// So a slower rotor is heard only where the diameter, the vehicle or the band says that it may be there. *Decision.*
 pub(super) const RESOLVED_REV_S: f64 = 30.0;

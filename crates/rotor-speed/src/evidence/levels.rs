@@ -5,13 +5,14 @@ use super::level_model::{LAST_HARMONIC, OrderLevel, RotorLevels};
 use super::level_table;
 use super::rotor_lines::RotorLines;
 use super::votes::MESH_HARMONICS;
+use crate::thresholds::{MOST, NEARLY_ALL, NOISE_STDS_MAX};
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
 use hovertone_vehicle::LineLevels;
 
-/// Share of frames in which a line must be inside the band. *Decision.*
-const INSIDE_SHARE_MIN: f64 = 0.8;
-/// Share of frames in which its level must be known: lines of hum or of a voice may be left out. *Decision.*
-const KNOWN_SHARE_MIN: f64 = 0.5;
+/// Share of frames in which a line must be inside the band.
+const INSIDE_SHARE_MIN: f64 = NEARLY_ALL;
+/// Share of frames in which its level must be known: lines of hum or of a voice may be left out.
+const KNOWN_SHARE_MIN: f64 = MOST;
 /// Lowest frequency of a line, Hz: handling and wind are below. *Decision.*
 pub(super) const LINE_HZ_MIN: f64 = 25.0;
 /// Fractions of an order at which no rotor on this path, nor one at twice or half its speed, has a line. *Decision.*
@@ -20,8 +21,8 @@ const NOISE_FRACTIONS: [f64; 6] = [0.23, 0.37, 0.42, 0.58, 0.63, 0.77];
 const NOISE_ORDERS: u32 = 30;
 /// Distance from a gear mesh at which orders are those of its sidebands: shaft speeds to either side. *Physics.*
 const SIDEBANDS: f64 = 2.0;
-/// Standard deviations of the noise above which a level is that of a line. *Decision.*
-const LINE_STDS: f64 = 3.0;
+/// Standard deviations of the noise above which a level is that of a line.
+const LINE_STDS: f64 = NOISE_STDS_MAX;
 /// Standard deviation of the noise, dB: the least, by skirts of lines, and the most that some seconds of noise can have. *Decision.*
 const NOISE_STD_DB: std::ops::RangeInclusive<f64> = 1.0..=2.0;
 

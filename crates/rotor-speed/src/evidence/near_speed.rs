@@ -6,11 +6,12 @@ use super::levels::{NoiseLevel, levels_of_lines, noise_level};
 use super::rotor_lines::RotorLines;
 use super::second_look::path_near;
 use super::votes::{VotePlaces, VoteTable, votes_of_frame};
+use crate::thresholds::SAME_SPEED_SHARE;
 use hovertone_signal::statistics::{mean, median};
 use hovertone_vehicle::LineLevels;
 
-/// Largest distance of the path from the speed, as a logarithm. *Decision.*
-const NEAR: f64 = 0.1;
+/// Largest distance of the path from the speed, as a logarithm.
+const NEAR: f64 = SAME_SPEED_SHARE;
 
 /// What frames of one length show of a rotor near a speed.
 #[derive(Clone, Debug)]

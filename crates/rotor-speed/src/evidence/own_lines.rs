@@ -5,12 +5,13 @@ use super::level_model::{LevelModel, OrderLevel};
 use super::level_table;
 use super::levels::{FloorAlong, level_db, noise_level};
 use super::votes::HARMONICS;
+use crate::thresholds::MANY;
 use hovertone_vehicle::LineLevels;
 
 /// Distance at which two lines stand apart, in resolutions of a frame: half the width of the main lobe of each. *Physics.*
 const APART_RESOLUTIONS: f64 = 2.0;
-/// Smallest share of the frames in which a line stands apart, at which it is compared. *Decision.*
-const APART_SHARE_MIN: f64 = 0.3;
+/// Smallest share of the frames in which a line stands apart, at which it is compared.
+const APART_SHARE_MIN: f64 = MANY;
 
 /// Whether a frequency stands apart, in a frame, from all lines of a shaft.
 pub(super) fn is_apart(excess: &Excess, hz: f64, shaft_rev_s: f64) -> bool {

@@ -6,6 +6,7 @@ use super::pauses::quiet_frames;
 use super::rotor_lines::RotorLines;
 use super::voice::Voice;
 use super::votes::{VotePlaces, VoteTable, votes_of_frames};
+use crate::thresholds::{CLEAR_NATS, MOST};
 use hovertone_signal::statistics::{mean, median};
 use std::ops::{Range, RangeInclusive};
 
@@ -21,10 +22,10 @@ const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0,
 const RELATED: f64 = 0.05;
 /// An octave down, none, and one up. *Physics.*
 const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
-/// Smallest share of the most votes that a rotor's path has, less some nats. *Decision.*
-pub(super) const VOTES_SHARE_MIN: f64 = 0.5;
-/// These nats. *Decision.*
-pub(super) const VOTES_NATS_APART: f64 = 3.0;
+/// Smallest share of the most votes that a rotor's path has, less some nats.
+pub(super) const VOTES_SHARE_MIN: f64 = MOST;
+/// These nats.
+pub(super) const VOTES_NATS_APART: f64 = CLEAR_NATS;
 /// Paths whose mean distance is at most this many points are one path. *Numeric.*
 const SAME_POINTS: usize = 2;
 /// Smallest difference of the logarithms of two speeds that is a jump: rotors of one vehicle, and a rotor in a manoeuvre, stay within a quarter.

@@ -6,9 +6,10 @@ use super::levels::{NoiseLevel, levels_of_lines, noise_level};
 use super::path::best_path;
 use super::rotor_lines::RotorLines;
 use super::votes::{VotePlaces, VoteTable, votes_of_frame};
+use crate::thresholds::BESIDE_SHARE;
 
-/// Largest distance of the paths, as a logarithm of the speed. *Decision.*
-const NEAR: f64 = 0.03;
+/// Largest distance of the paths, as a logarithm of the speed.
+const NEAR: f64 = BESIDE_SHARE;
 /// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
 pub(super) const STEP: f64 = 1e-3;
 /// The same where a gear mesh is followed: a quarter of that width at its third harmonic. *Numeric.*

@@ -4,10 +4,11 @@ use super::excess::ExcessFrame;
 use super::level_table::{LEVELS, Level, UNKNOWN, level_db};
 use super::levels::LINE_HZ_MIN;
 use super::rotor_lines::RotorLines;
+use crate::thresholds::{LINE_NATS_MAX, MESH_LINES, SERIES_LINES};
 use std::ops::Range;
 
-/// Largest vote of a line for or against, in nats. *Decision.*
-const VOTE_NATS_MAX: f64 = 8.0;
+/// Largest vote of a line for or against, in nats.
+const VOTE_NATS_MAX: f64 = LINE_NATS_MAX;
 /// Levels over the floor over which the likelihood of a line is averaged, dB: from the faintest that shows to the loudest. *Decision.*
 const LINE_DB: std::ops::RangeInclusive<i32> = 3..=33;
 /// Step of these levels, dB. *Numeric.*
@@ -16,12 +17,12 @@ const LINE_DB_STEP: usize = 2;
 const BLADE_PASS_AUDIBLE: f64 = 0.7;
 /// Probability that another line of the shaft is audible in a frame. *Decision.*
 const SHAFT_AUDIBLE: f64 = 0.35;
-/// Harmonics of the blade pass over which both probabilities fall by a factor e. *Decision.*
-const AUDIBLE_HARMONICS: f64 = 8.0;
+/// Harmonics of the blade pass over which both probabilities fall by a factor e.
+const AUDIBLE_HARMONICS: f64 = SERIES_LINES as f64;
 /// Harmonics of the blade pass that vote, and that tell rotors apart. *Decision.*
 pub(super) const HARMONICS: u32 = 12;
-/// Harmonics of a gear mesh that vote: more are above what recorders keep. *Decision.*
-pub(super) const MESH_HARMONICS: u32 = 3;
+/// Harmonics of a gear mesh that vote: more are above what recorders keep.
+pub(super) const MESH_HARMONICS: u32 = MESH_LINES;
 /// Probability that the propeller of a rotor with a gear is audible beside the mesh. *Decision.*
 pub(super) const AUDIBLE_BESIDE_MESH: f64 = 0.5;
 /// Weight of the vote of a line above the band of the recording, which cannot be heard: its absence proves little. *Decision.*

@@ -34,6 +34,7 @@ pub(crate) mod speed_map;
 pub(crate) mod speed_path;
 mod track;
 
+use crate::thresholds::{CLEAR_TIMES, HEARD_S_MIN, MESH_LINES, SERIES_LINES};
 use block::BlockFit;
 pub(crate) use chunks::{Chunk, ChunkCutter, ChunkListener, InChunks, NoiseDensity, limits_rev_s};
 use demodulation::{Line, LinePlace, demodulated};
@@ -61,28 +62,19 @@ const SEVERAL_SHARE: f64 = 0.06;
 const UNKNOWN_LOUDNESS_SHARE: f64 = 0.2;
 /// Smallest share of blocks of one hop that must be clear for the path to be right beyond doubt. *Decision.*
 const CLEAR_SHARE: f64 = 0.9;
-/// Likelihood of a clear block, in units of the likelihood that stands out of the noise. *Decision.*
-const CLEAR_TIMES: f64 = 2.0;
 /// Largest change of a path, in cycles of the highest line within a tick, for which its lines are not demodulated again. *Numeric.*
 const NEAR_TURNS: f64 = 0.02;
 /// Smallest information of a block that counts as heard, s²: a standard uncertainty of 10 rev/s. *Decision.*
 const INFORMATION_MIN: f64 = 1e-2;
 /// Smallest length of a steady block, s: a tone too weak to be a line in any frame is a tone if lines keep their phase for this long.
-/// *Decision.*
-pub(crate) const STEADY_S_MIN: f64 = 1.0;
-/// Likelihood of a steady block, in units of the likelihood that stands out of the noise. *Decision.*
-const STEADY_TIMES: f64 = 2.0;
+pub(crate) const STEADY_S_MIN: f64 = HEARD_S_MIN;
+/// Likelihood of a steady block, in units of the likelihood that stands out of the noise.
+const STEADY_TIMES: f64 = CLEAR_TIMES;
 /// Likelihood that a search over 100 000 resolution cells finds in noise; a steady block must reach this in addition. *Decision.*
 const SEARCH_LIKELIHOOD: f64 = 20.0;
 /// Smallest likelihood of the blocks of a coherent chunk, as a share of the likelihood over noise of blocks of one hop. The hum of a
 /// machine leaves a tenth. *Decision.*
 const COHERENT_SHARE: f64 = 0.4;
-/// Number of lines from which a family counts as a blade pass, which has many; a gear mesh has few. *Decision.*
-const BLADE_PASS_LINES_MIN: usize = 8;
-/// Lines of a blade pass that must keep their phase in a steady block. *Decision.*
-const STEADY_LINES_OF_BLADE_PASS: u32 = 4;
-/// Lines of a gear mesh that must keep their phase in a steady block. *Decision.*
-const STEADY_LINES_OF_MESH: u32 = 2;
 
 /// Estimates the speed along stretches of sound.
 pub(crate) struct HarmonicTracer {
@@ -295,9 +287,11 @@ fn blocks_of_several(centroids: &[Centroid], start_s: f64, frame_s: f64) -> Vec<
         .collect()
 }
 
-/// Smallest number of lines of a family that must keep their phase in a steady block.
+/// Smallest number of lines of a family that must keep their phase in a steady block: half of those by which a blade pass, or a gear mesh, is
+/// recognised.
 fn steady_lines_min(lines: usize) -> u32 {
-    if lines >= BLADE_PASS_LINES_MIN { STEADY_LINES_OF_BLADE_PASS } else { STEADY_LINES_OF_MESH }
+    let recognised_by = if lines >= SERIES_LINES as usize { SERIES_LINES } else { MESH_LINES };
+    recognised_by.div_ceil(2)
 }
 
 /// Whether the band of a line holds a sound much stronger than the line.

@@ -12,12 +12,12 @@ use super::block::{
 use super::demodulation::Line;
 use super::speed_map::FRAME_HOPS;
 use super::speed_path::{SpeedPath, SpeedPoint};
+use crate::thresholds::SEARCHED_NOISE_STDS_MAX;
 use hovertone_signal::channels::TICKS_PER_HOP;
 use std::ops::Range;
 
 /// Likelihood that a block must add beyond noise to pay for its own parameters, in standard deviations of the likelihood of noise.
-/// *Decision.*
-const PENALTY_STDS: f64 = 5.0;
+const PENALTY_STDS: f64 = SEARCHED_NOISE_STDS_MAX;
 /// Phase error, rad, that does not count against a block, for each time that its length doubles: lines that do not belong to the
 /// rotor disturb the phases of short blocks by as much. *Decision.*
 const PHASE_TOLERANCE_RAD: f64 = 0.07;

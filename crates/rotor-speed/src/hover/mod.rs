@@ -8,14 +8,13 @@ pub(crate) use phases::restless_s;
 pub use settings::{HoverConfig, HoverPart};
 
 use crate::survey::Survey;
+use crate::thresholds::{FEW, SAME_SPEED_SHARE};
 use crate::tone::CombMap;
 use hovertone_analysis::{Cut, CutReason, Hover, Span};
 use hovertone_signal::statistics::{mean_by_square, median};
 
-/// Largest part of a steady span that is cut away at an edge, as a share of the span. *Decision.*
-const EDGE_SHARE_MAX: f64 = 0.2;
-/// Largest difference of two other speeds that form one cut, as a share. *Decision.*
-const SAME_SPEED_SHARE: f64 = 0.1;
+/// Largest part of a steady span that is cut away at an edge, as a share of the span.
+const EDGE_SHARE_MAX: f64 = FEW;
 
 /// The hover that is searched for.
 #[derive(Clone, Copy, Debug)]

@@ -2,12 +2,11 @@
 
 use crate::harmonic::SAME_TIME_S;
 use crate::survey::Survey;
+use crate::thresholds::{CLEAR_DB, HELD_S};
 use crate::tone::CombMap;
 use hovertone_analysis::{Cut, CutReason, Hover, Span};
 use hovertone_signal::statistics::median;
 
-/// Shortest time for which a speed is held to be a steady state of its own, such as idling or another load, s. *Decision.*
-const HELD_S: f64 = 2.0;
 /// Largest overshoot beyond the speed of the hover when rotors run up or down, as a share. *Decision.*
 const OVERSHOOT_SHARE: f64 = 0.15;
 /// Longest manoeuvre between two spans of hover, s. *Decision.*
@@ -15,8 +14,7 @@ const MANOEUVRE_S_MAX: f64 = 6.0;
 /// Smallest comb score of a clear row outside the hover, as a share of the median score in the hover. *Decision.*
 const CLEAR_SHARE: f64 = 0.7;
 /// Smallest comb score of a clear row, dB: with a lower score, the best speed of a row is wrong by chance, also with a faint rotor.
-/// *Decision.*
-const CLEAR_DB_MIN: f64 = 10.0;
+const CLEAR_DB_MIN: f64 = CLEAR_DB;
 
 /// Length of the rows with clear tones outside the hover that are not held and belong to no take-off or landing, s.
 pub(crate) fn restless_s(hover: &Hover, survey: &Survey, map: &CombMap) -> f64 {

@@ -3,6 +3,7 @@
 use super::lines::TrackedLines;
 use super::path::SpeedPath;
 use crate::harmonic::best_path::best_path;
+use crate::thresholds::LINE_NATS_MAX;
 use hovertone_signal::passes::StretchListener;
 use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::statistics::median;
@@ -17,8 +18,8 @@ const STEP_STD: f64 = 3.0;
 const LINE_SCORE_MAX: f64 = 4.0;
 /// Score of a line that is absent: half the speed has all lines and as many absent ones between them. *Decision.*
 const ABSENT_SCORE: f64 = -1.0;
-/// Largest height of a line, in nats, by which even and odd lines are compared. *Decision.*
-const HEIGHT_MAX: f64 = 8.0;
+/// Largest height of a line, in nats, by which even and odd lines are compared.
+const HEIGHT_MAX: f64 = LINE_NATS_MAX;
 /// Even lines may be higher than odd ones by this, in nats; more is half the speed of a shaft whose own lines are heard. *Decision.*
 const ALTERNATION_MAX: f64 = 3.0;
 /// Width of the stretches of a spectrum whose median is the floor: wide against lines. *Decision.*

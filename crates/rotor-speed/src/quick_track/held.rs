@@ -1,12 +1,13 @@
 //! Where a path holds its speed.
 
 use super::path::SpeedPath;
+use crate::thresholds::{BESIDE_SHARE, HEARD_S_MIN};
 use std::ops::Range;
 
-/// Largest change of a speed that is held, as a share: wander and the grid of the path. *Decision.*
-const HELD_SHARE: f64 = 0.03;
-/// Shortest time: the survey needs some rows. *Decision.*
-const HELD_S_MIN: f64 = 1.0;
+/// Largest change of a speed that is held, as a share: wander and the grid of the path.
+const HELD_SHARE: f64 = BESIDE_SHARE;
+/// Shortest time: the survey needs some rows.
+const HELD_S_MIN: f64 = HEARD_S_MIN;
 /// Part at either end that is left out: the frames there see the step. *Numeric.*
 const MARGIN_S: f64 = 0.1;
 

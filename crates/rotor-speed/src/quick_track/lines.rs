@@ -1,11 +1,12 @@
 //! Which lines are followed, and in which frames.
 
+use crate::thresholds::BELOW_OCTAVE;
 use crate::tone::{ToneConfig, blades_known};
 use hovertone_signal::RECORDED_RATE_SHARE;
 use std::ops::Range;
 
-/// Fastest and slowest speed that is followed, over the speed that was heard: a bench steps by less. *Decision.*
-const RANGE_FACTOR: f64 = 1.9;
+/// Fastest and slowest speed that is followed, over the speed that was heard: a bench steps by less.
+const RANGE_FACTOR: f64 = BELOW_OCTAVE;
 /// Turns of the shaft in a frame, at the slowest speed that is usual on a bench: the lines of all orders, half orders as the floor between
 /// them, are resolved. *Numeric.*
 const FRAME_TURNS: f64 = 4.0;

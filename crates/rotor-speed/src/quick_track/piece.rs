@@ -5,6 +5,7 @@ use super::lines::TrackedLines;
 use super::offsets::{FrameShifts, frame_shifts};
 use super::path::SpeedPath;
 use super::{QuickStretch, QuickTrack};
+use crate::thresholds::{CLEAR_NATS, HEARD_S_MIN};
 use hovertone_signal::passes::StretchListener;
 use hovertone_signal::spectrogram::hann_frequency_weight;
 use hovertone_signal::statistics::mean;
@@ -22,10 +23,10 @@ const SEEN_PLACES: u32 = 32;
 const SMOOTH_FRAMES: usize = 5;
 /// Frames over which it is judged whether rotors are heard: three lengths of a frame. *Numeric.*
 const JUDGED_FRAMES: usize = 30;
-/// Smallest height of the lines over the noise in which rotors are heard, in nats: a path that follows the highest noise has 2. *Decision.*
-const HEIGHT_MIN: f64 = 3.0;
-/// Shortest stretch: a step has two levels; beeps of an ESC are shorter. *Decision.*
-const STRETCH_S_MIN: f64 = 1.0;
+/// Smallest height of the lines over the noise in which rotors are heard, in nats: a path that follows the highest noise has 2.
+const HEIGHT_MIN: f64 = CLEAR_NATS;
+/// Shortest stretch: a step has two levels; beeps of an ESC are shorter.
+const STRETCH_S_MIN: f64 = HEARD_S_MIN;
 
 /// How near the given path is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,6 +22,7 @@ use crate::harmonic::chunks::Chunk;
 use crate::harmonic::join::joined;
 use crate::harmonic::partition::{Partition, blocks_between, doubled_partition, likelihood_min};
 use crate::harmonic::speed_path::SpeedPath;
+use crate::thresholds::{MANY, NEARLY_ALL};
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::fft::ComplexPlanner;
 use std::ops::RangeInclusive;
@@ -36,11 +37,11 @@ const FIRST_SWEEPS: usize = 1;
 const FIRST_RESIDUE_SHARE: f32 = 0.06;
 /// Where two rotors are closer than so many of those cells for long, longer frames tell them apart better. *Decision.*
 const CLOSE_CELLS: f64 = 2.0;
-/// Share of the frames that is long. *Decision.*
-const CLOSE_SHARE: f64 = 0.3;
+/// Share of the frames that is long.
+const CLOSE_SHARE: f64 = MANY;
 /// Share of the frames in which two searches are better than one: of rotors 0.1 % apart all four are right in 0.946 of the frames of 20 clips, and in
-/// 0.938 by one. That is not so 0.3 % apart. *Decision.*
-const ALWAYS_CLOSE_SHARE: f64 = 0.8;
+/// 0.938 by one. That is not so 0.3 % apart.
+const ALWAYS_CLOSE_SHARE: f64 = NEARLY_ALL;
 
 /// What was heard of one rotor.
 pub(super) struct HeardRotor {

@@ -15,13 +15,14 @@ use super::spectra::{FRAME_TICKS, Spectra};
 use super::together::FrameScores;
 use crate::harmonic::chunks::Chunk;
 use crate::harmonic::speed_path::SpeedPath;
+use crate::thresholds::{BESIDE_SHARE, CLEAR_NATS};
 use hovertone_signal::fft::ComplexPlanner;
 use realfft::num_complex::Complex;
 
 /// A line at f has frames of `√(this / f)` along a rotor's own path. *Decision.*
 pub(super) const OWN_FRAME_HZ_S2: f64 = 480.0;
-/// Rotors are looked for so far beyond what the first search found, as a share of the speed. *Decision.*
-pub(super) const MARGIN_SHARE: f64 = 0.03;
+/// Rotors are looked for so far beyond what the first search found, as a share of the speed.
+pub(super) const MARGIN_SHARE: f64 = BESIDE_SHARE;
 /// Rotors of a hovering multirotor leave their common speed by less than 1 % in a second, which smears a line over less than two
 /// resolution cells of these frames. *Decision.*
 pub(super) const COMMON_SEARCH: Search =
@@ -43,8 +44,8 @@ const TOGETHER_ROUNDS: usize = 3;
 const ECHO_SHARE: f32 = 0.3;
 
 /// A rotor's lines must be worth this much more than the best of what is left when all rotors have been taken away: a path drawn through
-/// noise alone follows its maxima. *Decision.*
-pub(super) const HEARD_MARGIN: f64 = 3.0;
+/// noise alone follows its maxima.
+pub(super) const HEARD_MARGIN: f64 = CLEAR_NATS;
 
 /// How the rotors are looked for beside each other.
 #[derive(Clone, Copy)]

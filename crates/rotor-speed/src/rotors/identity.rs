@@ -7,6 +7,7 @@
 use super::labellings::{Labellings, UNCHANGED};
 use super::loudness::{Levels, Sides, level_cost, sides_of_frames};
 use super::pace::Pace;
+use crate::thresholds::SLOPE_SHARE_PER_S;
 use hovertone_signal::statistics::median;
 
 /// Standard deviation of the speed of a rotor from the one that its last speed and slopes predict, as a share of the speed. *Decision.*
@@ -14,8 +15,8 @@ const STEP_STD_SHARE: f64 = 0.0008;
 /// Cost of a step up to which it is its square, in nats. A wider one costs less than its square, because rotors jump in a gust. With a tenth,
 /// levels that rise and fall move rotors between names; with ten times, rotors 0.1 % apart lose each other. *Decision.*
 const STEP_COST: f64 = 100.0;
-/// Largest slope that is believed, as a share of the speed in a second. *Decision.*
-const SLOPE_SHARE_S_MAX: f64 = 0.1;
+/// Largest slope that is believed, as a share of the speed in a second.
+const SLOPE_SHARE_S_MAX: f64 = SLOPE_SHARE_PER_S;
 /// Largest number of times that the levels of the rotors, and then the rotors by their levels, are found. *Numeric.*
 const PASSES: usize = 4;
 /// Less probable exchanges of two rotors change no mean by what its uncertainty would show. *Numeric.*

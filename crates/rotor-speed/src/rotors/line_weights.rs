@@ -2,13 +2,14 @@
 
 use super::grid::OffsetGrid;
 use super::spectra::{LineSpectra, Spectra};
+use crate::thresholds::{FEW, NOISE_STDS_MAX};
 
 /// Resolution cells that a rotor fills in a frame: `∫ lobe⁴`, and a little for what its speed changes within. *Numeric.*
 const FILLED_CELLS: f64 = 1.2;
-/// Where rotors fill no more than this share of a band, the square of the likelihood tells them from noise, however coloured that is. *Decision.*
-const SPARSE_SHARE_MAX: f64 = 0.2;
-/// What so many standard deviations of chance explain is no rotor. *Decision.*
-const CHANCE_DEVIATIONS: f64 = 3.0;
+/// Where rotors fill no more than this share of a band, the square of the likelihood tells them from noise, however coloured that is.
+const SPARSE_SHARE_MAX: f64 = FEW;
+/// What so many standard deviations of chance explain is no rotor.
+const CHANCE_DEVIATIONS: f64 = NOISE_STDS_MAX;
 
 /// `S / (1 + S)` of each line, the weight of its likelihood in that of a rotor against noise; S is the power of `count` rotors in it,
 /// each alike, in units of the noise, or 0 where they do not stand out.

@@ -11,14 +11,15 @@ use super::spectra::{FRAME_TICKS, Spectra};
 use crate::harmonic::best_path::best_path;
 use crate::harmonic::chunks::Chunk;
 use crate::harmonic::speed_path::SpeedPath;
+use crate::thresholds::STEADY_FRAME_S;
 use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::{mean, median};
 use std::ops::RangeInclusive;
 
 /// Times that the motion is found by the pattern, and the pattern along the motion. *Numeric.*
 const ROUNDS: usize = 4;
-/// Over this time rates are taken. *Decision.*
-const RATE_S: f64 = 0.4;
+/// Over this time rates are taken.
+const RATE_S: f64 = STEADY_FRAME_S;
 /// Slower motion, in shares of the speed per second, smears the frames of the first search over less than two resolution cells; four rotors
 /// that wander for themselves have half as much in common by chance. *Decision.*
 const RATE_MIN_PER_S: f64 = 0.015;

@@ -1,7 +1,9 @@
 //! How fast speeds change, which says how long a frame may be.
 
-/// A frame is no longer than this: sound in a room loses its phase. *Decision.*
-const FRAME_S_MAX: f64 = 0.4;
+use crate::thresholds::STEADY_FRAME_S;
+
+/// A frame is no longer than this: sound in a room loses its phase.
+const FRAME_S_MAX: f64 = STEADY_FRAME_S;
 /// Frames of rotors that bob are so much shorter than those of others: 1.4 to 2.5 do alike, within what chance makes of 19 flights. *Decision.*
 const BOBBING_SHORTER: f64 = 1.75;
 /// Frames to either side over which the common speed is averaged. *Decision.*

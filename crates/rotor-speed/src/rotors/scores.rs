@@ -4,14 +4,15 @@ use super::atoms::{ChannelAtoms, PlacedLobe, REACH_CELLS};
 use super::grid::OffsetGrid;
 use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
+use crate::thresholds::LINE_NATS_MAX;
 use realfft::num_complex::Complex;
 use std::array::from_fn;
 use std::ops::Range;
 
 /// Share of a line's energy that must be left to it by the others. *Decision.*
 const ENERGY_LEFT_MIN: f32 = 0.1;
-/// Up to here a line counts for its likelihood, and beyond for the logarithm. *Decision.*
-const LINEAR_UP_TO: f64 = 8.0;
+/// Up to here a line counts for its likelihood, and beyond for the logarithm.
+const LINEAR_UP_TO: f64 = LINE_NATS_MAX;
 /// What a rotor leaves behind when it is taken away lies within so many cells of its lines. *Decision.*
 const RESIDUE_CELLS: f32 = 4.0;
 /// Below this share of the lines' power it counts for nothing. *Decision.*

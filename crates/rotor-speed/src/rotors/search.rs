@@ -6,6 +6,7 @@ use super::grid::OffsetGrid;
 use super::scores::{GridScores, Trust};
 use super::spectra::Spectra;
 use crate::harmonic::best_path::best_path;
+use crate::thresholds::SEARCHED_NOISE_STDS_MAX;
 use hovertone_signal::statistics::median;
 
 /// How much a rotor's speed changes from one frame to the next, as a share. *Decision.*
@@ -14,8 +15,8 @@ const STEP_STD_SHARE: f64 = 0.001;
 const OWN_POINTS: usize = 1;
 /// What a rotor claims of what was left over is taken from so many points to either side. *Numeric.*
 const CLAIMED_POINTS: usize = 5;
-/// The best of some hundred points of noise lies so many median deviations over their median: 3.4 standard deviations. *Decision.*
-const NOTHING_DEVIATIONS: f64 = 5.0;
+/// The best of some hundred points of noise lies so many median deviations over their median: 3.4 standard deviations.
+const NOTHING_DEVIATIONS: f64 = SEARCHED_NOISE_STDS_MAX;
 
 /// The tracks of `count` rotors as offsets from the common speed in each frame: those that are not known from `start`, one after the
 /// other, and then `sweeps` times each again beside all others.

@@ -9,6 +9,7 @@ use crate::harmonic::chunks::Chunk;
 use crate::harmonic::demodulation::{Line, LinePlace};
 use crate::harmonic::speed_map::{HANN_NOISE_CELLS, STRONG_POWER_MIN};
 use crate::harmonic::speed_path::SpeedPath;
+use crate::thresholds::MOST;
 use hovertone_signal::channels::TICKS_PER_HOP;
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
@@ -19,8 +20,8 @@ pub(super) const RESOLVED_CELLS: f64 = 1.25;
 const FAINT_SHARE: f64 = 0.25;
 /// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them. *Numeric.*
 const GHOST_SHARE: f64 = 1.0 / 100.0;
-/// A line that is apart from all others in less than this share of a chunk is not heard for its speed. *Decision.*
-const APART_SHARE_MIN: f64 = 0.5;
+/// A line that is apart from all others in less than this share of a chunk is not heard for its speed.
+const APART_SHARE_MIN: f64 = MOST;
 
 /// What belongs to one rotor.
 pub(super) struct SeparatedRotor {

@@ -14,6 +14,7 @@ pub(crate) use separated::mean_track;
 pub use settings::BudgetConfig;
 
 use crate::ridge::RidgeConfig;
+use crate::thresholds::NOISE_STDS_MAX;
 use hovertone_analysis::{
     HarmonicSpeed, Method, Peak, Ridge, Span, SpeedEstimate, TrackPoint, Warning, percent_in_words,
 };
@@ -26,8 +27,8 @@ use hovertone_vehicle::{Order, RotorSpeed};
 const PEAK_STD_CELLS: f64 = 0.62;
 
 /// Largest median difference of two harmonics of one shaft, in standard deviations of their noise. Noise alone gives 0.67; the rest is for
-/// the bias of the peak and for changes of speed within a frame. *Decision.*
-const ONE_SHAFT_STDS: f64 = 3.0;
+/// the bias of the peak and for changes of speed within a frame.
+const ONE_SHAFT_STDS: f64 = NOISE_STDS_MAX;
 
 /// The harmonics that are used, with their weights: the inverse of the variance of their speeds. Eq 9 of the paper as printed is no
 /// average, because its weights sum to 1.833 for exact harmonics.

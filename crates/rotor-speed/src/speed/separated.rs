@@ -3,21 +3,22 @@
 use crate::harmonic::HarmonicTrack;
 use crate::rotors::{RotorTrack, RotorTracks};
 use crate::speed::{BudgetConfig, with_budget};
+use crate::thresholds::{FEW, MOST};
 use hovertone_analysis::{Method, RotorEstimate, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std};
 use hovertone_vehicle::{Order, ROTOR_STD_SHARE, RotorSpeed};
 use std::f64::consts::{SQRT_2, TAU};
 
-/// Smallest share of the time in which a resolved rotor is heard, and separated from the others. *Decision.*
-const RESOLVED_SHARE_MIN: f64 = 0.5;
+/// Smallest share of the time in which a resolved rotor is heard, and separated from the others.
+const RESOLVED_SHARE_MIN: f64 = MOST;
 /// Largest share of the time in which a track may follow noise to count as a rotor, even where it is never separated from other rotors; and in
 /// which one of more rotors than four may be merged with another.
-/// With four equal rotors, three tracks follow noise at least 38 % of the time. *Decision.*
-const LOST_SHARE_MAX: f64 = 0.2;
+/// With four equal rotors, three tracks follow noise at least 38 % of the time.
+const LOST_SHARE_MAX: f64 = FEW;
 /// Smallest share of the time in which the search would have heard a faint rotor, at which it counts as complete: then a rotor that is not
 /// separated turns at the speed of a separated one. In 117 of 120 simulated clips (three equal rotors and a fainter one elsewhere, pairs, or
-/// four equal rotors) the mean of the group was within its standard uncertainty. *Decision.*
-const FAINT_SHARE_MIN: f64 = 0.2;
+/// four equal rotors) the mean of the group was within its standard uncertainty.
+const FAINT_SHARE_MIN: f64 = FEW;
 /// Standard uncertainty of the mean of a rotor due to bobbing, in resolutions. Rms errors of simulated flights in a room with rotors 1 and
 /// 2 % apart were 0.011 % in 37 flights, where this gives 0.063 %, and 0.08 % in 16 flights with ten times the gusts and commands.
 /// *Decision.*

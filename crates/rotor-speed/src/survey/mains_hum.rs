@@ -1,6 +1,7 @@
 //! Fine rows → mains hum: lines of constant frequency at multiples of 50 or 60 Hz.
 
 use crate::survey::{Row, Rows};
+use crate::thresholds::{CLEAR_DB, NEARLY_ALL};
 use hovertone_signal::SteadyLines;
 use hovertone_signal::peak::peak_offset_bins;
 use hovertone_signal::spectrogram::whitened_db;
@@ -19,8 +20,8 @@ const PEAK_ERROR_BINS: f64 = 0.08;
 const ROW_ERROR_BINS: f64 = 0.8;
 /// Largest deviation of a grid from its mean within a recording, as a share. *Decision.*
 const ROW_SHARE: f64 = 0.0005;
-/// Smallest height of a line of hum over its surroundings, dB. *Decision.*
-const OVER_DB_MIN: f64 = 10.0;
+/// Smallest height of a line of hum over its surroundings, dB.
+const OVER_DB_MIN: f64 = CLEAR_DB;
 /// The same for further lines, once there is hum, dB. *Decision.*
 const WEAK_OVER_DB_MIN: f64 = 5.0;
 /// Smallest power of a line, re a sine of full scale: the rounding of 16 bits, 2⁻³⁰/12, over the power 1/2 of such a sine: −98 dB. The rounding of
@@ -28,8 +29,8 @@ const WEAK_OVER_DB_MIN: f64 = 5.0;
 /// *Physics.*
 const ROUNDING_POWER: f64 = 1.55e-10;
 /// Smallest share of rows in which a line of hum is in its place: noise moves weak lines, and a rotor of varying speed leaves the place
-/// soon. *Decision.*
-const ROWS_IN_PLACE_MIN: f64 = 0.8;
+/// soon.
+const ROWS_IN_PLACE_MIN: f64 = NEARLY_ALL;
 /// Smallest share of lines that are heard, among all multiples up to the highest one heard, or among the odd or the even multiples.
 /// *Decision.*
 const HEARD_SHARE_MIN: f64 = 0.65;

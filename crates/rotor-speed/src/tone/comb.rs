@@ -1,6 +1,7 @@
 //! Survey → how well each shaft speed explains each row, as a comb over the whitened spectrum: where a rotor hovers, and how it moves.
 
 use crate::survey::Survey;
+use crate::thresholds::{HOVER_WIDTH_SHARE, MESH_LINES, MOST, SERIES_LEVEL_DB_MAX, SERIES_LINES};
 use crate::tone::ToneConfig;
 use hovertone_signal::spectrogram::whitened_db;
 use hovertone_vehicle::BLADES_MAX;
@@ -8,16 +9,16 @@ use std::ops::RangeInclusive;
 
 /// Distance of neighbouring speeds or fundamentals on the search grid, as a share. *Numeric.*
 pub(super) const GRID_STEP_SHARE: f64 = 0.003;
-/// A line counts up to this level, so that one strong line does not outweigh a series. *Decision.*
-const LEVEL_DB_MAX: f64 = 40.0;
-/// Harmonics of the blade pass that are looked at: as many as stand out of the noise of small multirotors. *Decision.*
-const BLADE_PASS_HARMONICS: u32 = 8;
-/// Harmonics of the gear mesh that are looked at: the third of the AR.Drone's is at 12 kHz already. *Decision.*
-const GEAR_MESH_HARMONICS: u32 = 3;
-/// Speeds this near are those of the rotors of one vehicle, as a share: a hover wanders. *Decision.*
-const NEAR_SHARE: f64 = 0.024;
-/// Speeds of a row whose comb reaches this share of the best one's stand out of it. *Decision.*
-const OUTSTANDING_SHARE: f64 = 0.5;
+/// A line counts up to this level, so that one strong line does not outweigh a series.
+const LEVEL_DB_MAX: f64 = SERIES_LEVEL_DB_MAX;
+/// Harmonics of the blade pass that are looked at: as many as stand out of the noise of small multirotors.
+const BLADE_PASS_HARMONICS: u32 = SERIES_LINES;
+/// Harmonics of the gear mesh that are looked at: the third of the AR.Drone's is at 12 kHz already.
+const GEAR_MESH_HARMONICS: u32 = MESH_LINES;
+/// Speeds this near are those of the rotors of one vehicle, as a share: a hover wanders.
+const NEAR_SHARE: f64 = HOVER_WIDTH_SHARE;
+/// Speeds of a row whose comb reaches this share of the best one's stand out of it.
+const OUTSTANDING_SHARE: f64 = MOST;
 /// A line that a rotor is expected to make.
 #[derive(Clone, Copy, Debug)]
 struct Tooth {

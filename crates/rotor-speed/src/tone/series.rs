@@ -2,23 +2,22 @@
 
 use super::comb::{GRID_STEP_SHARE, search_grid};
 use super::levels::{LevelRow, LevelRows};
+use crate::thresholds::{FLIGHT_WIDTH_SHARE, HOVER_WIDTH_SHARE, MOST, SERIES_LEVEL_DB_MAX, SERIES_LINES};
 use crate::tone::DiscoveryConfig;
 use hovertone_signal::statistics::{mean_by_square, median};
 
-/// Lines that a series is recognised by, each counting less than the one before. *Decision.*
-const SERIES_LINES: u32 = 8;
 /// Places between lines, at half orders, where a series has none. *Decision.*
 const GAP_COUNT: u32 = 4;
-/// In the scan a line counts up to this level, so that one strong line does not outweigh a series. *Decision.*
-const SCAN_LEVEL_DB_MAX: f32 = 40.0;
-/// A row is looked through this near the fundamental of the whole: rotors in flight change their speed by this. *Decision.*
-const ROW_HALF_WIDTH_SHARE: f64 = 0.08;
-/// Speeds this near count as the same when rows are pooled: a hover wanders. *Decision.*
-const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
-/// A row has the family when it scores this share of what its typical rows do. *Decision.*
-const PRESENT_SCORE_SHARE: f64 = 0.5;
-/// Where the peak of a harmonic is looked for beside its expected place, as a share. *Decision.*
-const REFINE_HALF_WIDTH_SHARE: f64 = 0.012;
+/// In the scan a line counts up to this level, so that one strong line does not outweigh a series.
+const SCAN_LEVEL_DB_MAX: f32 = SERIES_LEVEL_DB_MAX as f32;
+/// A row is looked through this near the fundamental of the whole: rotors in flight change their speed by this.
+const ROW_HALF_WIDTH_SHARE: f64 = FLIGHT_WIDTH_SHARE;
+/// Speeds this near count as the same when rows are pooled: a hover wanders.
+const POOL_HALF_WIDTH_SHARE: f64 = HOVER_WIDTH_SHARE / 2.0;
+/// A row has the family when it scores this share of what its typical rows do.
+const PRESENT_SCORE_SHARE: f64 = MOST;
+/// Where the peak of a harmonic is looked for beside its expected place, as a share.
+const REFINE_HALF_WIDTH_SHARE: f64 = HOVER_WIDTH_SHARE / 2.0;
 /// Peaks lower than this do not take part in the refinement of a fundamental. *Decision.*
 const REFINE_LEVEL_DB_MIN: f64 = 6.0;
 /// Lines of a series that are listed at most. *Numeric.*

@@ -1,13 +1,14 @@
 //! Which tone of the rotor is followed, and where it is looked for.
 
+use crate::thresholds::FLIGHT_WIDTH_SHARE;
 use hovertone_vehicle::{
     BLADES_MAX, ConfigError, Contradiction, KNOWN_RANGE_MARGIN, Order, RotorSpeed, SearchedTone, ShaftSpeedRange,
     check_range,
 };
 use serde::Serialize;
 
-/// Half width of a found band, as a share. *Decision.*
-const BAND_HALF_WIDTH_SHARE: f64 = 0.08;
+/// Half width of a found band, as a share.
+const BAND_HALF_WIDTH_SHARE: f64 = FLIGHT_WIDTH_SHARE;
 /// Slowest shaft that is looked for: below the 30 rev/s of the largest multirotors' propellers. *Decision.*
 const SLOWEST_REV_S: f64 = 15.0;
 /// Fastest shaft that is looked for: above the 670 rev/s of the smallest racers' propellers. *Decision.*

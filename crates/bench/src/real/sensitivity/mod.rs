@@ -23,6 +23,8 @@ use trial::Trial;
 
 /// What it writes, in the repository.
 const REPORT: &str = "docs/sensitivity.md";
+/// Heading of the list of constants.
+const CONSTANTS: &str = "Constants";
 /// One step down, and one step up.
 const FACTORS: [f64; 2] = [0.7, 1.4];
 
@@ -30,12 +32,14 @@ const FACTORS: [f64; 2] = [0.7, 1.4];
 pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
     let (data, tried) = match words {
         [] => (None, None),
+        ["--constants"] => return rewrite_constants(root),
         ["--data", folder] => (Some(*folder), None),
         ["--try", values] => (None, Some(*values)),
         ["--data", folder, "--try", values] => (Some(*folder), Some(*values)),
         _ => {
             return Err(
-                "cargo run --release -p hovertone-bench -- sensitivity [--data DIR] [--try NAME=VALUE,…]".to_owned()
+                "cargo run --release -p hovertone-bench -- sensitivity [--constants | --data DIR] [--try NAME=VALUE,…]"
+                    .to_owned(),
             );
         }
     };
@@ -168,7 +172,6 @@ fn print_changes(cases: &[LoadedCase<'_>], usual: &[Verdict], tried: &[Verdict])
 }
 
 fn report(root: &Path, made_by: &str, usual: &Counts, rows: &[Vec<String>]) -> Result<String, String> {
-    let constants = decision_constants(root)?;
     let mut document = Document::default();
     document.paragraph("# Sensitivity");
     document.paragraph(&format!("{}; not edited by hand.", sentence(made_by)));
@@ -176,14 +179,32 @@ fn report(root: &Path, made_by: &str, usual: &Counts, rows: &[Vec<String>]) -> R
     document.paragraph(&format!("As it is: {}.", usual.text()));
     document.heading("Settings");
     document.table(&["number", "value", "× 0.7", "× 1.4"], rows);
-    document.heading("Constants");
+    list_constants(root, &mut document)?;
+    Ok(document.into_text())
+}
+
+/// The decision constants of today's sources below what was measured before: a list needs no hour.
+fn rewrite_constants(root: &Path) -> Result<(), String> {
+    let path = root.join(REPORT);
+    let failed = |error: std::io::Error| format!("{REPORT}: {error}");
+    let text = fs::read_to_string(&path).map_err(failed)?;
+    let (measured, _) =
+        text.split_once(&format!("## {CONSTANTS}\n")).ok_or(format!("{REPORT} has no list of constants"))?;
+    let mut list = Document::default();
+    list_constants(root, &mut list)?;
+    fs::write(&path, format!("{measured}{}", list.into_text().trim_start())).map_err(failed)
+}
+
+fn list_constants(root: &Path, document: &mut Document) -> Result<(), String> {
+    let constants = decision_constants(root)?;
+    document.heading(CONSTANTS);
     document.paragraph(&format!(
         "{} decision constants of `rotor-speed` are no settings yet, so that no step was taken:",
         constants.len()
     ));
     let rows: Vec<Vec<String>> = constants.into_iter().map(|constant| vec![constant.file, constant.names]).collect();
     document.table(&["file", "constants"], &rows);
-    Ok(document.into_text())
+    Ok(())
 }
 
 const HEAD: &str = "The numbers of the settings that decide, and what one step each way changes on the trusted real recordings: with blades \

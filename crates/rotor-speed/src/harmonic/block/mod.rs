@@ -17,6 +17,7 @@ mod stats;
 
 pub(crate) use slices::{BlockSlices, Expansion, HALF_HOP_TICKS, LineSum};
 
+use crate::thresholds::SLOPE_SHARE_PER_S;
 use stats::BlockStats;
 use std::ops::Range;
 
@@ -38,8 +39,8 @@ const STRAY_CELLS: f64 = 3.0;
 /// Step uphill where the likelihood is not concave, in resolution cells. *Numeric.*
 const UPHILL_CELLS: f64 = 0.1;
 /// Standard deviation of the slope of a hovering rotor, as a share of its speed per second: the prior of the slope, which bounds it in
-/// weak blocks. *Decision.*
-const SLOPE_STD_SHARE_PER_S: f64 = 0.1;
+/// weak blocks.
+const SLOPE_STD_SHARE_PER_S: f64 = SLOPE_SHARE_PER_S;
 
 /// A speed that is linear in time: the speed in the middle of a block, and its rate of change.
 #[derive(Clone, Copy, Debug)]

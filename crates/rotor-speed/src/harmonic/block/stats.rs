@@ -2,6 +2,7 @@
 
 use super::slices::{BlockLine, BlockSlices};
 use crate::harmonic::phasors::OrderPhasors;
+use crate::thresholds::NOISE_STDS_MAX;
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -13,8 +14,8 @@ const PHASE_PIECES: usize = 8;
 /// Smallest number of pieces whose phases are compared. *Numeric.*
 const PHASE_PIECES_MIN: usize = 4;
 /// Smallest excess of the phase scatter over the scatter from noise that counts, in standard deviations of the scatter from noise, and smallest
-/// bend, in standard deviations of the bend from noise: noise alone reaches it once in a few hundred blocks. *Decision.*
-const SCATTER_STDS: f64 = 3.0;
+/// bend, in standard deviations of the bend from noise: noise alone reaches it once in a few hundred blocks.
+const SCATTER_STDS: f64 = NOISE_STDS_MAX;
 /// Degree of the Legendre polynomial of a bend: the lowest that a line of speed leaves, and that is unlike at both ends. *Numeric.*
 const BEND_DEGREE: usize = 3;
 /// Number of parameters that were fitted to the phases: speed and slope. *Physics.*
