@@ -46,6 +46,8 @@ impl GivenFacts {
             (self.order, "the number of --order"),
             (self.diameter, "the diameter"),
             (self.mass, "the mass"),
+            // it tells how much of the mass a rotor carries
+            (self.mass && self.rotors, "the number of rotors"),
             (self.band, "the band"),
         ];
         let given = named(&facts);
@@ -159,6 +161,9 @@ mod tests {
         assert_eq!(of_vehicle.in_words("and"), "the vehicle and the band");
         let alone = GivenFacts { blades: true, mass: true, band: true, ..nothing };
         assert_eq!(alone.in_words("or"), "the number of blades, the mass or the band");
+        let carried = GivenFacts { rotors: true, ..alone };
+        assert_eq!(carried.in_words("and"), "the number of blades, the mass, the number of rotors and the band");
+        assert_eq!(GivenFacts { rotors: true, blades: true, ..nothing }.in_words("and"), "the number of blades");
         assert_eq!(all.replaced_by_blades(), "the vehicle, the gear (--gear or --order) and the band");
         assert_eq!(of_vehicle.replaced_by_blades(), "the vehicle and the band");
         assert_eq!(alone.replaced_by_blades(), "the band");

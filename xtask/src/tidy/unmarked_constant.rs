@@ -1,4 +1,5 @@
-//! A constant of the estimator says what kind of number it is: `*Physics.*`, `*Numeric.*` (resolution, tolerance) or `*Decision.*`.
+//! A constant of the estimator says what kind of number it is: `*Physics.*`, `*Numeric.*` (resolution, tolerance) or `*Decision.*`. A constant
+//! that is another one needs no mark: it is no number of its own.
 
 use super::fault::Fault;
 use crate::tree::{Source, Tree};
@@ -74,7 +75,7 @@ struct Collector {
 }
 
 impl Collector {
-    fn add(&mut self, attributes: &[Attribute], name: &Ident, of: &Type, last_line: usize) {
+    fn add(&mut self, attributes: &[Attribute], name: &Ident, is_number: bool, last_line: usize) {
         let line = name.span().start().line;
         let docs: Vec<String> = attributes.iter().filter_map(doc_line).collect();
         self.found.push(Constant {
@@ -82,7 +83,7 @@ impl Collector {
             line,
             first_line: attributes.first().map_or(line, |first| first.pound_token.span.start().line),
             last_line,
-            is_number: is_number(of),
+            is_number,
             has_doc: !docs.is_empty(),
             is_marked: docs.iter().any(|doc| MARKS.iter().any(|mark| doc.contains(mark))),
         });
@@ -91,23 +92,23 @@ impl Collector {
 
 impl<'file> Visit<'file> for Collector {
     fn visit_item_const(&mut self, item: &'file ItemConst) {
-        self.add(&item.attrs, &item.ident, &item.ty, item.semi_token.span.end().line);
+        self.add(&item.attrs, &item.ident, is_own_number(&item.ty, &item.expr), item.semi_token.span.end().line);
         visit::visit_item_const(self, item);
     }
 
     fn visit_item_static(&mut self, item: &'file ItemStatic) {
-        self.add(&item.attrs, &item.ident, &item.ty, item.semi_token.span.end().line);
+        self.add(&item.attrs, &item.ident, is_own_number(&item.ty, &item.expr), item.semi_token.span.end().line);
         visit::visit_item_static(self, item);
     }
 
     fn visit_impl_item_const(&mut self, item: &'file ImplItemConst) {
-        self.add(&item.attrs, &item.ident, &item.ty, item.semi_token.span.end().line);
+        self.add(&item.attrs, &item.ident, is_own_number(&item.ty, &item.expr), item.semi_token.span.end().line);
         visit::visit_impl_item_const(self, item);
     }
 
     fn visit_trait_item_const(&mut self, item: &'file TraitItemConst) {
-        if item.default.is_some() {
-            self.add(&item.attrs, &item.ident, &item.ty, item.semi_token.span.end().line);
+        if let Some((_, value)) = &item.default {
+            self.add(&item.attrs, &item.ident, is_own_number(&item.ty, value), item.semi_token.span.end().line);
         }
         visit::visit_trait_item_const(self, item);
     }
@@ -119,6 +120,19 @@ fn doc_line(attribute: &Attribute) -> Option<String> {
     match &literal.lit {
         Lit::Str(text) if pair.path.is_ident("doc") => Some(text.value()),
         _ => None,
+    }
+}
+
+/// Is the value a number, and no other constant's?
+fn is_own_number(of: &Type, value: &Expr) -> bool {
+    is_number(of) && !is_name(value)
+}
+
+fn is_name(value: &Expr) -> bool {
+    match value {
+        Expr::Path(_) => true,
+        Expr::Cast(cast) => is_name(&cast.expr),
+        _ => false,
     }
 }
 
@@ -165,6 +179,7 @@ mod tests {
             "impl S { const A: f64 = 0.3; }",
             "fn f() { const A: f64 = 0.3; }",
             "// *Numeric.*\nconst A: f64 = 0.3;",
+            "const A: f64 = B / 2.0;",
         ] {
             assert_eq!(count(text), 1, "{text}");
         }
@@ -181,6 +196,8 @@ mod tests {
             "const A: Settings = Settings { b: 0.3 };",
             "#[cfg(test)] mod tests { const A: f64 = 0.3; }",
             "trait T { const A: f64; }",
+            "const A: f64 = B;",
+            "const A: f32 = b::C as f32;",
         ] {
             assert_eq!(count(text), 0, "{text}");
         }

@@ -117,7 +117,8 @@ fn end_block(block: &BlockFit, tick_s: f64) -> EndBlock {
 }
 
 /// The partition with the step to the next block in each block, where the phases determine it.
-fn with_steps(path: &SpeedPath, (mut partition, sums): PartitionWithSums) -> Partition {
+fn with_steps(path: &SpeedPath, joined: PartitionWithSums) -> Partition {
+    let PartitionWithSums { mut partition, sums } = joined;
     let steps: Vec<Option<f64>> = partition
         .blocks
         .windows(2)

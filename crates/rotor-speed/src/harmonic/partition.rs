@@ -250,7 +250,10 @@ pub(crate) fn blocks_between(lines: &[Line], path: &SpeedPath, partition: &Parti
 }
 
 /// A partition, and the sums of the lines of each of its blocks.
-pub(crate) type PartitionWithSums = (Partition, Vec<Vec<LineSum>>);
+pub(crate) struct PartitionWithSums {
+    pub(crate) partition: Partition,
+    pub(crate) sums: Vec<Vec<LineSum>>,
+}
 
 /// The same blocks, fitted again from their own speeds.
 pub(crate) fn polished(lines: &[Line], path: &SpeedPath, partition: &Partition) -> PartitionWithSums {
@@ -269,7 +272,7 @@ pub(crate) fn halved(lines: &[Line], path: &SpeedPath, longer: &Partition) -> Pa
 
 fn with_sums(lines: &[Line], blocks: impl Iterator<Item = BlockSlices>) -> PartitionWithSums {
     let (blocks, sums) = blocks.map(|block| block.fit_with_sums()).unzip();
-    (Partition::new(blocks, lines), sums)
+    PartitionWithSums { partition: Partition::new(blocks, lines), sums }
 }
 
 /// The number of blocks of half the length.

@@ -12,11 +12,11 @@ const GAP_COUNT: u32 = 4;
 const SCAN_LEVEL_DB_MAX: f32 = SERIES_LEVEL_DB_MAX as f32;
 /// A row is looked through this near the fundamental of the whole: rotors in flight change their speed by this.
 const ROW_HALF_WIDTH_SHARE: f64 = FLIGHT_WIDTH_SHARE;
-/// Speeds this near count as the same when rows are pooled: a hover wanders.
+/// Speeds this near count as the same when rows are pooled: a hover wanders. *Numeric.*
 const POOL_HALF_WIDTH_SHARE: f64 = HOVER_WIDTH_SHARE / 2.0;
 /// A row has the family when it scores this share of what its typical rows do.
 const PRESENT_SCORE_SHARE: f64 = MOST;
-/// Where the peak of a harmonic is looked for beside its expected place, as a share.
+/// Where the peak of a harmonic is looked for beside its expected place, as a share. *Numeric.*
 const REFINE_HALF_WIDTH_SHARE: f64 = HOVER_WIDTH_SHARE / 2.0;
 /// Peaks lower than this do not take part in the refinement of a fundamental. *Decision.*
 const REFINE_LEVEL_DB_MIN: f64 = 6.0;
