@@ -193,13 +193,16 @@ pub(crate) fn is_recording_failure(path: &Path) -> Failure {
 
 /// The failure of a log whose speeds are needed.
 pub(crate) fn without_speeds(path: &Path, flight: &LoggedFlight) -> Failure {
-    match electrical_notice(flight.electrical_columns()) {
-        Some(Notice { text, hint, .. }) => Failure::failed(text, hint, path),
-        None => {
-            let hint = "let the ESCs report their speeds (telemetry), and log them";
-            Failure::failed("no rotor speed in this log", hint, path)
-        }
-    }
+    with_electrical_speeds(path, flight).unwrap_or_else(|| {
+        let hint = "let the ESCs report their speeds (telemetry), and log them";
+        Failure::failed("no rotor speed in this log", hint, path)
+    })
+}
+
+/// Why a log has no rotor speeds, where it has electrical ones.
+pub(crate) fn with_electrical_speeds(path: &Path, flight: &LoggedFlight) -> Option<Failure> {
+    let Notice { text, hint, .. } = electrical_notice(flight.electrical_columns())?;
+    Some(Failure::failed(text, hint, path))
 }
 
 /// That columns have electrical speeds, which are no speeds of rotors without the number of magnetic poles, and how to give it; `None` without

@@ -3,7 +3,8 @@
 use super::start::{Start, heard_mean, mean_of};
 use crate::failure::Failure;
 use crate::inputs::{name_of, open_stream};
-use crate::log::{THE_LOG, log_failure};
+use crate::log::{THE_LOG, column_names, log_failure, with_electrical_speeds};
+use crate::motor::flight_of;
 use crate::progress::Progress;
 use crate::recording::{Hearing, better_rotor, lines_of};
 use crate::vehicles::not_in_flight_model;
@@ -365,7 +366,9 @@ fn logged_observations(flown: &FlownLog, files: &FlightFiles) -> Result<Vec<Spee
     let Some(speeds) = &flown.speeds_rad_s else {
         let what = "this log does not have the speeds of four rotors, and no recording is given";
         let hint = "give the recording before the log, or a log with speed_1_rad_s to speed_4_rad_s";
-        return Err(Failure::failed(what, hint, &files.log));
+        let flight = flight_of(&files.log, &column_names(&[])?).ok().flatten();
+        let electrical = flight.and_then(|flight| with_electrical_speeds(&files.log, &flight));
+        return Err(electrical.unwrap_or_else(|| Failure::failed(what, hint, &files.log)));
     };
     let finite = speeds.iter().flatten().copied().filter(|speed| speed.is_finite());
     let (sum, count) = finite.fold((0.0, 0.0), |(sum, count), speed| (sum + speed, count + 1.0));

@@ -115,6 +115,10 @@ fn what_is_no_flight_is_refused_in_one_line() {
         words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word}:\n{}", run.stderr));
     };
     lacks(&short, &["does not have the speeds of four rotors", "give the recording before the log"]);
+    let motors: String = (1..=4).map(|motor| format!(",eRPM[{}]", motor - 1)).collect();
+    let rows_of_motors: String = (0..30).map(|row| format!("\n0.{row:02},0,0,500,500,500,500")).collect();
+    let electrical = log("electrical.csv", &format!("{head}{motors}{rows_of_motors}"));
+    lacks(&electrical, &["electrical speeds", "count the magnets", "--column"]);
     let wild = log("wild.csv", &format!("{head}{}", rows("7")));
     refused_with(&["greybox", &wild, "--vehicle", "ardrone"], &["a command of this log is 7", "from −1 to 1"]);
     for flag in ["--channel", "--log-offset-s", "--clock-correction-ppm"] {
