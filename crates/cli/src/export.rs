@@ -251,7 +251,7 @@ fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Resul
     // the momentConstant of a model is this ratio
     if torque_constant_n_m_s2 <= TORQUE_PER_THRUST_M_MAX {
         let hint = format!(
-            "perhaps {torque_constant_n_m_s2} is the momentConstant of a model, which is this ratio already, in m; then give the torque constant: --torque-constant-n-m-s2 {:.3e}",
+            "check the number and its unit; if {torque_constant_n_m_s2} is the momentConstant in a model of Gazebo, it is this ratio (in m), and the torque constant is --torque-constant-n-m-s2 {:.3e}",
             torque_constant_n_m_s2 * thrust_constant_n_s2
         );
         return Err(Failure::usage(what, hint));
