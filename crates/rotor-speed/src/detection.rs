@@ -21,8 +21,6 @@ const GAP_SHARE: f64 = MANY;
 const SPREAD_SHARE: f64 = 0.025;
 /// A sample of fewer frames has a mean that one bad frame spoils. *Decision.*
 const FEW_FRAMES: usize = 8;
-/// Shortest part of a hover that has a speed of its own, s.
-const PART_S: f64 = HELD_S;
 /// Another speed is worth a warning when it lasts this share of the hover.
 const OTHER_SPEED_LENGTH_SHARE: f64 = MOST;
 
@@ -80,7 +78,7 @@ pub(crate) fn warning_of_parts(hover: &Hover, track: &[TrackPoint], share_max: f
             track.iter().filter(|point| segment.contains(point.time_s)).map(|point| point.speed_rev_s).collect();
         mean(&speeds)
     };
-    let long = hover.segments.iter().filter(|segment| segment.length_s() >= PART_S);
+    let long = hover.segments.iter().filter(|segment| segment.length_s() >= HELD_S);
     let means: Vec<f64> = long.filter_map(mean_in).collect();
     let slowest_rev_s = means.iter().copied().min_by(f64::total_cmp)?;
     let fastest_rev_s = means.iter().copied().max_by(f64::total_cmp)?;
@@ -138,7 +136,7 @@ pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> V
     let gap_share = clearest.map_or(1.0, |ridge| 1.0 - ridge.point_share());
     if gap_share > GAP_SHARE {
         let clear = clearest.and_then(|ridge| ridge.clearest_span(GAP_SHARE));
-        warnings.push(Warning::ManyGaps { gap_share, clear: clear.filter(|span| span.length_s() >= PART_S) });
+        warnings.push(Warning::ManyGaps { gap_share, clear: clear.filter(|span| span.length_s() >= HELD_S) });
     }
     // of the speed that is told: those of other methods beside it may follow other lines
     let spread_share = speeds.first().and_then(|speed| Some(speed.spread_rev_s? / speed.speed.rev_s()));

@@ -22,8 +22,6 @@ use serde::Serialize;
 const DETAIL_ROWS_MAX: usize = 64;
 /// Frames of the finer spectrum to a row. They follow each other without overlap, which costs half as much. *Numeric.*
 const DETAIL_FRAMES: f64 = 2.0;
-/// Other speeds of the same rotor are looked for up to this factor: below an octave, so that it stays as it is.
-const OTHER_SPEED_FACTOR: f64 = BELOW_OCTAVE;
 
 /// What is looked for, and what is known beforehand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -215,8 +213,8 @@ fn config_for(config: &Config, reading: &Reading) -> Config {
     config.tone.order = reading.order;
     config.tone.blades = reading.meaning.blades();
     config.tone.band_hz = None;
-    config.tone.speed_min = RotorSpeed::from_rad_s(reading.speed.rad_s() / OTHER_SPEED_FACTOR);
-    config.tone.speed_max = RotorSpeed::from_rad_s(reading.speed.rad_s() * OTHER_SPEED_FACTOR);
+    config.tone.speed_min = RotorSpeed::from_rad_s(reading.speed.rad_s() / BELOW_OCTAVE);
+    config.tone.speed_max = RotorSpeed::from_rad_s(reading.speed.rad_s() * BELOW_OCTAVE);
     config
 }
 

@@ -4,8 +4,7 @@ use super::excess::Excess;
 use super::level_model::{LAST_HARMONIC, OrderLevel, RotorLevels};
 use super::level_table;
 use super::rotor_lines::RotorLines;
-use super::votes::MESH_HARMONICS;
-use crate::thresholds::{MOST, NEARLY_ALL, NOISE_STDS_MAX};
+use crate::thresholds::{MESH_LINES, MOST, NEARLY_ALL, NOISE_STDS_MAX};
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
 use hovertone_vehicle::LineLevels;
 
@@ -62,7 +61,7 @@ pub(super) fn levels_of_lines(excess: &Excess, speeds_rev_s: &[f64], lines: &Rot
         })
     };
     let shaft = lines.blades.into_iter().flat_map(|blades| 1..=LAST_HARMONIC * blades).filter(|it| !is_of_mesh(it));
-    let mesh = lines.mesh_order.into_iter().flat_map(|order| (1..=MESH_HARMONICS).map(move |k| (k, order)));
+    let mesh = lines.mesh_order.into_iter().flat_map(|order| (1..=MESH_LINES).map(move |k| (k, order)));
     RotorLevels {
         shaft: shaft.filter_map(|order| level(order, 1.0)).collect(),
         mesh: mesh.filter_map(|(k, order)| level(k, order)).collect(),

@@ -21,8 +21,6 @@ const SHAFT_AUDIBLE: f64 = 0.35;
 const AUDIBLE_HARMONICS: f64 = SERIES_LINES as f64;
 /// Harmonics of the blade pass that vote, and that tell rotors apart. *Decision.*
 pub(super) const HARMONICS: u32 = 12;
-/// Harmonics of a gear mesh that vote: more are above what recorders keep.
-pub(super) const MESH_HARMONICS: u32 = MESH_LINES;
 /// Probability that the propeller of a rotor with a gear is audible beside the mesh. *Decision.*
 pub(super) const AUDIBLE_BESIDE_MESH: f64 = 0.5;
 /// Weight of the vote of a line above the band of the recording, which cannot be heard: its absence proves little. *Decision.*
@@ -67,7 +65,7 @@ impl VoteTable {
             })
         };
         let of_mesh =
-            |order: f64| (1..=MESH_HARMONICS).map(f64::from).map(move |k| votes(k * order, BLADE_PASS_AUDIBLE, k));
+            |order: f64| (1..=MESH_LINES).map(f64::from).map(move |k| votes(k * order, BLADE_PASS_AUDIBLE, k));
         Self {
             shaft: lines.blades.into_iter().flat_map(of_shaft).collect(),
             mesh: lines.mesh_order.into_iter().flat_map(of_mesh).collect(),

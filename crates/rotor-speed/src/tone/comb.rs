@@ -9,16 +9,9 @@ use std::ops::RangeInclusive;
 
 /// Distance of neighbouring speeds or fundamentals on the search grid, as a share. *Numeric.*
 pub(super) const GRID_STEP_SHARE: f64 = 0.003;
-/// A line counts up to this level, so that one strong line does not outweigh a series.
-const LEVEL_DB_MAX: f64 = SERIES_LEVEL_DB_MAX;
-/// Harmonics of the blade pass that are looked at: as many as stand out of the noise of small multirotors.
-const BLADE_PASS_HARMONICS: u32 = SERIES_LINES;
-/// Harmonics of the gear mesh that are looked at: the third of the AR.Drone's is at 12 kHz already.
-const GEAR_MESH_HARMONICS: u32 = MESH_LINES;
-/// Speeds this near are those of the rotors of one vehicle, as a share: a hover wanders.
-const NEAR_SHARE: f64 = HOVER_WIDTH_SHARE;
 /// Speeds of a row whose comb reaches this share of the best one's stand out of it.
 const OUTSTANDING_SHARE: f64 = MOST;
+
 /// A line that a rotor is expected to make.
 #[derive(Clone, Copy, Debug)]
 struct Tooth {
@@ -41,7 +34,7 @@ impl Comb {
         let mut teeth = Vec::new();
         let mut gaps = Vec::new();
         if let Some(blades) = blades {
-            teeth.extend(series(blades, BLADE_PASS_HARMONICS));
+            teeth.extend(series(blades, SERIES_LINES));
             // a shaft makes lines at whole orders only: what sounds at half orders belongs to a slower shaft
             if blades.fract() == 0.0 {
                 let total: f64 = teeth.iter().map(|tooth: &Tooth| tooth.weight).sum();
@@ -52,7 +45,7 @@ impl Comb {
             }
         }
         if !is_blade_pass {
-            teeth.extend(series(order, GEAR_MESH_HARMONICS));
+            teeth.extend(series(order, MESH_LINES));
             // a mesh at twice its frequency would have its own first line halfway; a codec that cuts the third makes that likely
             gaps.extend([1.0, 2.0].map(|k: f64| Tooth { order: (k - 0.5) * order, weight: k.powf(-0.5) }));
         }
@@ -90,7 +83,7 @@ fn level_db(whitened: &[f64], place: f64) -> f64 {
     let half = place * GRID_STEP_SHARE / 2.0;
     let (first, last) = ((place - half).round() as usize, (place + half).round() as usize);
     let highest = whitened.get(first..=last).map_or(0.0, |levels| levels.iter().copied().fold(0.0, f64::max));
-    highest.min(LEVEL_DB_MAX)
+    highest.min(SERIES_LEVEL_DB_MAX)
 }
 
 /// How well each speed explains each row of a survey.
@@ -146,7 +139,7 @@ impl CombMap {
     /// The mean of the best speeds of all rows near a speed, each as its score: of several rotors one is the best in some rows, and another in
     /// others.
     pub(crate) fn refined_rev_s(&self, speed_rev_s: f64) -> f64 {
-        let best = (0..self.scores_db.len()).filter_map(|row| self.best_near(row, speed_rev_s, NEAR_SHARE));
+        let best = (0..self.scores_db.len()).filter_map(|row| self.best_near(row, speed_rev_s, HOVER_WIDTH_SHARE));
         weighted_mean(best.map(|(speed, score_db)| (speed, score_db.max(0.0).powi(2)))).unwrap_or(speed_rev_s)
     }
 
