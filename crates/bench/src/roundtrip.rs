@@ -3,7 +3,7 @@
 
 use crate::workspace::cargo;
 use crate::workspace::target;
-use hovertone::thrust::COVERAGE_FACTOR;
+use hovertone::vehicle::COVERAGE_FACTOR;
 use hovertone_sim::scenario::ScenarioFile;
 use serde_json::Value;
 use std::fs;

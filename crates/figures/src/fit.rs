@@ -6,7 +6,8 @@ use crate::colour::{INK, MUTED, colour_of_method};
 use crate::figure::{Figure, FigureError, shortened};
 use crate::geometry::{Extent, Point};
 use hovertone_analysis::Method;
-use hovertone_thrust::{COVERAGE_FACTOR, LoadThrust, SquareLawFit, ThrustTable};
+use hovertone_thrust::{LoadThrust, SquareLawFit, ThrustTable};
+use hovertone_vehicle::COVERAGE_FACTOR;
 use plotters::style::Color;
 
 /// Squared speeds are shown in this unit.

@@ -6,6 +6,7 @@ use crate::colour::{INK, SERIES};
 use crate::figure::{Figure, FigureError};
 use crate::geometry::Point;
 use hovertone_analysis::{ComparedPoint, Verification};
+use hovertone_vehicle::COVERAGE_FACTOR;
 use plotters::style::{Color, RGBColor};
 
 /// Most points of a curve.
@@ -14,8 +15,6 @@ const POINTS_MAX: usize = 3000;
 const GAP_S: f64 = 0.5;
 /// Room above and below the curves, as a share of their range.
 const MARGIN_SHARE: f64 = 0.08;
-/// The ± is two standard uncertainties.
-const COVERAGE_FACTOR: f64 = 2.0;
 /// Opacity of the ±.
 const OPACITY: f64 = 0.15;
 const KEY: i32 = 300;

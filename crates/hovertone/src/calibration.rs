@@ -14,12 +14,10 @@
 //! # Ok::<(), hovertone::vehicle::QuantityError>(())
 //! ```
 
-use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Order, QuantityError, RotorSpeed};
+use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, COVERAGE_FACTOR, Order, QuantityError, RotorSpeed};
 
 /// *Numeric.*
 const MILLION: f64 = 1e6;
-/// Standard uncertainties at which a heard and a known speed differ: those of the ± that is told. *Physics.*
-const COVERAGE: f64 = 2.0;
 /// Smallest standard uncertainty of a correction, in millionths: audio samples in single precision. *Numeric.*
 const STD_PPM_MIN: f64 = 0.05;
 /// Largest order that is offered in place of a wrong one: the teeth of a large gear wheel. *Decision.*
@@ -117,7 +115,7 @@ pub fn check_against(
 ) -> Result<SpeedCheck, QuantityError> {
     let ratio = heard.rev_s() / known.speed.rev_s();
     let correction_std_ppm = (MILLION * heard_std_share.hypot(known.std_share)).max(STD_PPM_MIN);
-    let limit_ppm = CLOCK_CORRECTION_PPM_MAX + COVERAGE * correction_std_ppm;
+    let limit_ppm = CLOCK_CORRECTION_PPM_MAX + COVERAGE_FACTOR * correction_std_ppm;
     let correction_ppm = |ratio: f64| MILLION * (1.0 / ratio - 1.0);
     let fits = |ratio: f64| correction_ppm(ratio).abs() <= limit_ppm;
     // the order of the tone, if the known speed is right

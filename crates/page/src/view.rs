@@ -4,7 +4,8 @@ use hovertone_analysis::Method;
 use hovertone_report::{
     Identification, Row, ScaledNumber, TextTable, Verdict, counted, rotors_heard_text, scaled_number, tone_of_order,
 };
-use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable};
+use hovertone_thrust::ThrustTable;
+use hovertone_vehicle::COVERAGE_FACTOR;
 use hovertone_vehicle::Estimate;
 
 /// A unit: "1e-5 N s²" becomes 10⁻⁵ N s².

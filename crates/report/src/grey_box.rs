@@ -11,7 +11,7 @@ use crate::text_table::{Column, TextTable};
 use crate::typeset::TitledTable;
 use hovertone_analysis::{OtherRotor, Warning};
 use hovertone_dynamics::{Advice, Checked, GreyBoxFit, Parameter, TorqueConstant};
-use hovertone_thrust::COVERAGE_FACTOR;
+use hovertone_vehicle::COVERAGE_FACTOR;
 use hovertone_vehicle::{Axis, Estimate, RotorSpeed, in_list};
 
 const MS_PER_S: f64 = 1e3;

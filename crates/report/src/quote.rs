@@ -3,7 +3,8 @@
 use crate::number::{PowerOfTen, fixed, with_uncertainty};
 use crate::thrust::{CONSTANT_UNIT, WITHOUT_FLIGHTS};
 use hovertone_analysis::RotorsHeardCounts;
-use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable, ThrustWarning, p_value_text};
+use hovertone_thrust::{ThrustTable, ThrustWarning, p_value_text};
+use hovertone_vehicle::COVERAGE_FACTOR;
 use hovertone_vehicle::{Estimate, Order};
 
 /// Whether the loads agree with each other.

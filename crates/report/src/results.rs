@@ -7,10 +7,10 @@ use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::version::VERSION;
 use hovertone_analysis::{Hover, Method, RotorsHeard, RotorsHeardCounts, Verification, Warning};
 use hovertone_thrust::{
-    COVERAGE_FACTOR, Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap,
-    UncertaintyBudget, VehicleModel,
+    Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap, UncertaintyBudget,
+    VehicleModel,
 };
-use hovertone_vehicle::{Estimate, Order, RotorSpeed};
+use hovertone_vehicle::{COVERAGE_FACTOR, Estimate, Order, RotorSpeed};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 

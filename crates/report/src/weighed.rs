@@ -5,7 +5,8 @@ use crate::number::{may_be_zero, rounded, significant, with_uncertainty};
 use crate::recording::SpeedRecord;
 use crate::thrust::WITHOUT_FLIGHTS;
 use crate::version::VERSION;
-use hovertone_thrust::{COVERAGE_FACTOR, WeighedHover};
+use hovertone_thrust::WeighedHover;
+use hovertone_vehicle::COVERAGE_FACTOR;
 use hovertone_vehicle::{Estimate, RotorSpeed};
 use serde::Serialize;
 

@@ -48,7 +48,7 @@ pub use square_law::{
     ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, NoScatter, PointNoise, PointVerdict,
     PowerLaw, SquareLawFit, square_law_fit,
 };
-pub use statistics::{COVERAGE_FACTOR, p_value_text};
+pub use statistics::p_value_text;
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 pub use warning::ThrustWarning;

@@ -2,10 +2,11 @@
 
 use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, HeardLoad};
 use crate::square_law::{ForcePoint, PointNoise, is_off_by_a_factor};
-use crate::statistics::{COVERAGE_FACTOR, median};
+use crate::statistics::median;
 use crate::warning::ThrustWarning;
 use crate::warning_words::first_names;
 use crate::weighing::ALIKE_SHARE_MAX;
+use hovertone_vehicle::COVERAGE_FACTOR;
 use hovertone_vehicle::RotorSpeed;
 
 /// Fewest trials of a load among which one can be called far from the others. *Decision.*

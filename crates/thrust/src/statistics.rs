@@ -1,9 +1,7 @@
 //! Mean, spread and median of a few numbers, the probability of a deviation, and Student's factor.
 
+use hovertone_vehicle::COVERAGE_FACTOR;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
-
-/// Coverage factor k of the expanded uncertainty, for a probability of about 95 % (JCGM 100:2008, 6.3.3). *Decision.*
-pub const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Smallest p-value that is printed as a number. *Decision.*
 const P_VALUE_SHOWN_MIN: f64 = 1e-4;

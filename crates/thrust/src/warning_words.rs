@@ -2,7 +2,8 @@
 
 use crate::drift::{Drift, DriftKind};
 use crate::square_law::LoadRange;
-use crate::statistics::{COVERAGE_FACTOR, p_value_text};
+use crate::statistics::p_value_text;
+use hovertone_vehicle::COVERAGE_FACTOR;
 
 /// Most names in the list of a warning. *Decision.*
 pub(crate) const NAMES_MAX: usize = 5;

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Coverage factor k of the expanded uncertainty, for a probability of about 95 % (JCGM 100:2008, 6.3.3). *Decision.*
+pub const COVERAGE_FACTOR: f64 = 2.0;
+
 /// How an estimate was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -21,7 +21,7 @@ mod vehicle;
 
 pub use constants::{AIR_KG_M3, GRAVITY_STANDARD_M_S2, SOUND_M_S};
 pub use contradiction::{Contradiction, TIP_MACH_MAX, check_tips};
-pub use estimate::{Ending, Estimate};
+pub use estimate::{COVERAGE_FACTOR, Ending, Estimate};
 pub use flight::{
     Axis, BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters,
     RotorParameters, find_flight_parameters, flight_preset_names, flight_presets,

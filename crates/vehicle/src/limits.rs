@@ -1,6 +1,6 @@
 //! Limits of settings and of what multirotors can be, where several stages share them.
 
-use crate::QuantityError;
+use crate::{COVERAGE_FACTOR, QuantityError};
 use std::ops::RangeInclusive;
 
 /// Most blades of a propeller. *Physics.*
@@ -75,7 +75,7 @@ pub fn loudest_rotor_share(rotor_spread_share: f64, rotor_count: u32) -> f64 {
 
 /// Whether the expanded uncertainty (k = 2) of a positive quantity reaches zero: then nothing was measured, or the unit is wrong.
 pub fn is_swamped(value: f64, std_uncertainty: f64) -> bool {
-    2.0 * std_uncertainty > value
+    COVERAGE_FACTOR * std_uncertainty > value
 }
 
 /// A setting out of range.

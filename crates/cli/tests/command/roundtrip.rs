@@ -1,6 +1,7 @@
 //! Simulate → WAV → identify: C_f comes back. `hovertone-bench roundtrip` does a hundred of longer sound.
 
 use crate::testkit::{flown_hover, hovertone, text};
+use hovertone_vehicle::COVERAGE_FACTOR;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -16,7 +17,6 @@ const GROSS_SHARE: f64 = 0.05;
 const ONE_ROTOR_SHARE: f64 = SPREAD_SHARE;
 /// … and half of that is what the median may be: the loudest rotor is any of the four, not the fastest each time.
 const MEDIAN_SHARE: f64 = ONE_ROTOR_SHARE / 2.0;
-const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Error, standard uncertainty by weighing and speeds, and expanded uncertainty of the budget, as shares of the truth, by method.
 fn trip(folder: &Path, seed: u64) -> Vec<(f64, f64, f64)> {

@@ -1,7 +1,7 @@
 //! Saying more of the vehicle never makes the speed worse: simulated hovers with known speeds, heard by their blades alone, and with more.
 
 use crate::testkit::{flown_hover, hovertone, text};
-use hovertone_vehicle::{RotorSpeed, find_preset};
+use hovertone_vehicle::{COVERAGE_FACTOR, RotorSpeed, find_preset};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,6 @@ const DURATION_S: f64 = 6.0;
 const SPREAD_SHARE: f64 = 0.01;
 /// The true mean is that of the whole hover, and a part of it is heard: their means differ by this much.
 const TRUTH_SHARE: f64 = 0.003;
-const COVERAGE_FACTOR: f64 = 2.0;
 
 /// One way of hearing a recording.
 struct Heard {

@@ -1,5 +1,6 @@
 //! What a header says about an uncertainty: that it is one, and its coverage (k = 2, 95 %, ±, 3σ).
 
+use hovertone_vehicle::COVERAGE_FACTOR;
 use std::ops::RangeInclusive;
 
 /// Words of uncertainties.
@@ -11,8 +12,6 @@ const SIGMA: [&str; 9] = ["std", "stddev", "stdev", "sd", "sigma", "σ", "se", "
 const STANDARD: [&str; 3] = ["error", "deviation", "uncertainty"];
 /// Words beside a coverage that has no percent sign, as in U95.
 const COVERED: [&str; 6] = ["u", "unc", "uncertainty", "expanded", "confidence", "coverage"];
-/// Coverage factor of expanded uncertainties whose header says no other.
-const COVERAGE_FACTOR: f64 = 2.0;
 /// Coverage factors that an uncertainty may have.
 const COVERAGE_FACTORS: RangeInclusive<f64> = 0.1..=10.0;
 /// Numbers beside one of the words `COVERED` that are a coverage in percent.

@@ -10,6 +10,7 @@ use super::agreement::agreement_of;
 use super::differences::{Difference, POINTS_MIN, compared_point, near_rows, rounding_std};
 use super::not_verified::NotVerified;
 use hovertone_analysis::{MEAN_OF_MOTORS, RotorsHeard, TrackPoint, Verification, VerifiedRotor};
+use hovertone_vehicle::COVERAGE_FACTOR;
 
 /// Step of the coarse search of the offset, in s. *Numeric.*
 const OFFSET_STEP_S: f64 = 0.1;
@@ -38,8 +39,6 @@ const RATIOS: [f64; 9] = [0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 1.5, 2.0, 3.0, 4
 const RATIO_SHARE: f64 = 0.05;
 /// Shortest comparison that tells the rate of the clocks, in s. *Decision.*
 const RATE_S_MIN: f64 = 60.0;
-/// A measure of agreement is within the ± at this many standard uncertainties. *Decision.*
-const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Speeds of the motors in a log.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,8 @@ use crate::force::Force;
 use crate::regression::Agreement;
 use crate::settings::{ThrustSettings, UncertaintyInputs};
 use crate::square_law::{LawAgreement, PointNoise, SquareLawFit, covering_factor};
-use crate::statistics::{COVERAGE_FACTOR, mean};
+use crate::statistics::mean;
+use hovertone_vehicle::COVERAGE_FACTOR;
 use hovertone_vehicle::SOUND_M_S;
 use serde::Serialize;
 

@@ -6,8 +6,8 @@ mod text;
 use crate::drift::Drift;
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
-use crate::statistics::COVERAGE_FACTOR;
 use crate::warning_words::is_shifted_point;
+use hovertone_vehicle::COVERAGE_FACTOR;
 use hovertone_vehicle::{Estimate, KNOWN_MASS_SHARES, is_swamped};
 use serde::Serialize;
 

@@ -1,11 +1,11 @@
 //! What each warning says.
 
 use super::ThrustWarning;
-use crate::statistics::COVERAGE_FACTOR;
 use crate::warning_words::{
     RangeDoubt, differ_text, drift_text, either_mass_text, first_names, foreign_text, groups_text, incomplete_text,
     mass_text, misfit_text, probability_text, range_text, ratio_text, short_text,
 };
+use hovertone_vehicle::COVERAGE_FACTOR;
 use std::fmt;
 
 impl fmt::Display for ThrustWarning {

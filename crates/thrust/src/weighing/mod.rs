@@ -116,7 +116,7 @@ impl WeighedHover {
     pub fn is_below_vehicle(&self) -> bool {
         self.payload_kg.is_some_and(|payload| {
             let vehicle_kg = self.mass_kg.value - payload.value;
-            let expanded_kg = crate::COVERAGE_FACTOR * payload.std_uncertainty.unwrap_or(0.0);
+            let expanded_kg = hovertone_vehicle::COVERAGE_FACTOR * payload.std_uncertainty.unwrap_or(0.0);
             payload.value < -expanded_kg.max(LIGHTER_SHARE_MAX * vehicle_kg)
         })
     }

@@ -1,7 +1,7 @@
 //! Two answers about one recording, one with a fact more than the other.
 
 use super::subject::Ways;
-use hovertone::thrust::COVERAGE_FACTOR;
+use hovertone::vehicle::COVERAGE_FACTOR;
 
 /// An answer further off is wrong.
 const WRONG_SHARE: f64 = 0.01;
