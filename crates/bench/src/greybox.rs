@@ -39,42 +39,126 @@ enum Source {
     HeardInARoom,
 }
 
+impl Source {
+    /// The word for it after `--only`.
+    fn option(self) -> &'static str {
+        match self {
+            Self::Logged => "logged",
+            Self::HeardInTheOpen => "open",
+            Self::HeardInARoom => "room",
+        }
+    }
+}
+
+/// A told gain or time constant beside the truth.
+struct Told {
+    name: String,
+    /// As a share of the truth; none where that is 0.
+    error_share: Option<f64>,
+    /// Error over standard uncertainty.
+    deviation: f64,
+}
+
 /// Result of a flight.
 struct Examined {
     /// Worst error of a told k_p, as a share.
     gain_error: f64,
-    /// Error over standard uncertainty of each told gain and time constant.
-    deviations: Vec<f64>,
+    told: Vec<Told>,
     time_constant_error: f64,
     check: Option<Checked>,
+    /// Hover speed of each rotor over their mean, less 1.
+    apart_share: [f64; 4],
+}
+
+const USAGE: &str = "cargo run --release -p hovertone-bench -- greybox [--logged N] [--heard N] [--first-seed N] [--vehicle NAME] [--only logged|open|room] [--list]";
+
+/// Which flights are examined.
+struct Exam {
+    logged: u64,
+    heard: u64,
+    first_seed: u64,
+    vehicles: Vec<String>,
+    sources: Vec<Source>,
+    is_listed: bool,
+}
+
+impl Exam {
+    fn from_options(options: &[&str]) -> Result<Self, String> {
+        let mut exam = Self {
+            logged: LOGGED,
+            heard: HEARD,
+            first_seed: 1,
+            vehicles: VEHICLES.map(str::to_owned).to_vec(),
+            sources: vec![Source::Logged, Source::HeardInTheOpen, Source::HeardInARoom],
+            is_listed: false,
+        };
+        let mut options = options.iter();
+        while let Some(option) = options.next() {
+            if *option == "--list" {
+                exam.is_listed = true;
+                continue;
+            }
+            let value = options.next().ok_or(USAGE)?;
+            let number = || value.parse().map_err(|_| format!("{option} {value}: not a whole number"));
+            match *option {
+                "--logged" => exam.logged = number()?,
+                "--heard" => exam.heard = number()?,
+                "--first-seed" => exam.first_seed = number()?,
+                "--vehicle" => exam.vehicles = vec![(*value).to_owned()],
+                "--only" => exam.sources.retain(|source| source.option() == *value),
+                _ => return Err(USAGE.to_owned()),
+            }
+        }
+        Ok(exam)
+    }
+
+    fn seeds(&self, source: Source) -> std::ops::Range<u64> {
+        let count = if source == Source::Logged { self.logged } else { self.heard };
+        self.first_seed..self.first_seed + count
+    }
 }
 
 /// Runs the exam.
 pub(crate) fn run(options: &[&str]) -> Result<(), String> {
-    let number = |name: &str, default: u64| -> Result<u64, String> {
-        let Some(at) = options.iter().position(|option| *option == name) else { return Ok(default) };
-        let typed = options.get(at + 1).and_then(|value| value.parse().ok());
-        typed.ok_or(format!("{name} needs a number"))
-    };
-    let (logged, heard) = (number("--logged", LOGGED)?, number("--heard", HEARD)?);
+    let exam = Exam::from_options(options)?;
     println!(
         "| vehicle | speeds | flights | all k_p within 5 % | median error of k_p | within 2 u | median error of τ | rms on another flight |"
     );
     println!("|---|---|---|---|---|---|---|---|");
-    for (source, count) in [(Source::Logged, logged), (Source::HeardInTheOpen, heard), (Source::HeardInARoom, heard)] {
-        for preset in VEHICLES.into_iter().filter(|_| count > 0) {
-            let all: Vec<Option<Examined>> =
-                (1..=count).map(|seed| examined(preset, seed, source, DURATION_S)).collect();
+    for &source in &exam.sources {
+        let seeds = exam.seeds(source);
+        for preset in exam.vehicles.iter().filter(|_| !seeds.is_empty()) {
+            let of_seed = |seed| {
+                let flight = examined(preset, seed, source, DURATION_S);
+                if exam.is_listed {
+                    eprintln!("{preset} {} {seed}: {}", source.option(), line_of(flight.as_ref()));
+                }
+                flight
+            };
+            let all: Vec<Option<Examined>> = seeds.clone().map(of_seed).collect();
             println!("{}", row_of(preset, source, &all));
         }
     }
     Ok(())
 }
 
+/// The errors of a flight in per cent, each with its error over standard uncertainty.
+fn line_of(flight: Option<&Examined>) -> String {
+    let Some(flight) = flight else { return "no answer".to_owned() };
+    let told = |Told { name, error_share, deviation }: &Told| {
+        let share = error_share.map_or(String::new(), |share| format!("{:+.2} % ", 100.0 * share));
+        format!("{name} {share}({deviation:+.1} u)")
+    };
+    let all: Vec<String> = flight.told.iter().map(told).collect();
+    let rms = flight.check.map_or(f64::NAN, |check| 100.0 * check.rms_share);
+    let apart = flight.apart_share.map(|share| format!("{:+.2}", 100.0 * share)).join(", ");
+    format!("{}; rms on another flight {rms:.3} %; rotors {apart} % from their mean", all.join(", "))
+}
+
 fn row_of(preset: &str, source: Source, all: &[Option<Examined>]) -> String {
     let told: Vec<&Examined> = all.iter().flatten().collect();
     let right = told.iter().filter(|flight| flight.gain_error < GAIN_SHARE_MAX).count();
-    let deviations: Vec<f64> = told.iter().flat_map(|flight| flight.deviations.iter().copied()).collect();
+    let deviations: Vec<f64> = told.iter().flat_map(|flight| flight.told.iter().map(|told| told.deviation)).collect();
     let within = deviations.iter().filter(|deviation| deviation.abs() <= 2.0).count();
     let errors = |of: &dyn Fn(&Examined) -> Option<f64>| median(told.iter().filter_map(|flight| of(flight)).collect());
     let speeds = match source {
@@ -221,9 +305,14 @@ fn examined(preset: &str, seed: u64, source: Source, duration_s: f64) -> Option<
     let compared = |parameter: &Parameter| {
         matches!(parameter, Parameter::Proportional(_) | Parameter::Derivative(_) | Parameter::TimeConstant)
     };
-    let deviation = |(at, parameter): (usize, Parameter)| {
+    let told = |(at, parameter): (usize, Parameter)| {
         let std_uncertainty = fit.std_uncertainty[at].filter(|_| compared(&parameter))?;
-        Some((fit.model.to_vector()[at] - truth[at]) / std_uncertainty)
+        let error_share = (truth[at] != 0.0).then(|| error(at));
+        Some(Told {
+            name: parameter.name(),
+            error_share,
+            deviation: (fit.model.to_vector()[at] - truth[at]) / std_uncertainty,
+        })
     };
     let other = flown(&check, false)?;
     // against the true speeds, with the delays of the sound taken out
@@ -236,9 +325,10 @@ fn examined(preset: &str, seed: u64, source: Source, duration_s: f64) -> Option<
     let speeds = [0, 1, 2, 3].map(|rotor: usize| other.speeds[rotor].as_slice());
     Some(Examined {
         gain_error: Axis::ALL.iter().map(|axis| error(*axis as usize).abs()).fold(0.0, f64::max),
-        deviations: Parameter::all().into_iter().enumerate().filter_map(deviation).collect(),
+        told: Parameter::all().into_iter().enumerate().filter_map(told).collect(),
         time_constant_error: error(12).abs(),
         check: checked(&observations_of_rows(&other.time_s, speeds, 0.1), &prediction),
+        apart_share: flight.truth.hover_rad_s.map(|hover| hover / flight.truth.mean_hover_rad_s() - 1.0),
     })
 }
 

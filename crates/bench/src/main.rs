@@ -53,7 +53,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
   levels     levels of the lines and evidence of simulated flights beside real recordings: docs/synthetic-and-real.md
              [--data DIR] for other recordings, [--flights N] for fewer flights
   greybox    the low-level model of simulated flights against its truth, from logged speeds and from sound: docs/greybox.md
-             [--logged N] for another number of flights with logged speeds, [--heard N] for those that are heard
+             [--logged N] for another number of flights with logged speeds, [--heard N] for those that are heard, [--first-seed N]
+             for others, [--vehicle NAME], [--only logged|open|room], [--list] to print each answer
   verify     sound against telemetry on simulated flights, with right and wrong orders and clocks: a section of docs/verify.md
              [--count N] for fewer flights
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers

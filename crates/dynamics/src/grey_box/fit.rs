@@ -3,6 +3,7 @@
 use super::information::{Information, information_of};
 use super::inputs::LoopInputs;
 use super::observation::SpeedObservation;
+use super::overlap::overlap_shift;
 use super::parameters::{GreyBoxModel, PARAMETER_COUNT, Parameter};
 use super::prediction::SpeedPrediction;
 use super::problem::Problem;
@@ -278,8 +279,8 @@ fn finished(mut problem: Problem, wander: &Wander, config: &GreyBoxConfig) -> Re
         return Err(GreyBoxStop::NotConverged);
     };
     let rows = 4 * problem.observations.len();
-    let of_data = jacobian.rows(0, rows);
-    let data_information = of_data.transpose() * of_data;
+    let of_data = jacobian.rows(0, rows).into_owned();
+    let data_information = of_data.transpose() * &of_data;
     let prior = DMatrix::from_diagonal(&DVector::from_iterator(
         problem.free.len(),
         problem.free.iter().map(|&index| problem.prior_std[index].powi(-2)),
@@ -288,7 +289,8 @@ fn finished(mut problem: Problem, wander: &Wander, config: &GreyBoxConfig) -> Re
         return Err(GreyBoxStop::NotConverged);
     };
     let lags = lags_of(problem.observations, config.correlated_s);
-    let scores = correlated_scores(&of_data.into_owned(), &residuals.rows(0, rows).into_owned(), lags);
+    let scores = correlated_scores(&of_data, &residuals.rows(0, rows).into_owned(), lags);
+    let overlap = overlap_shift(&of_data, &inverse, &problem);
     let sandwich = &inverse * (scores + &prior) * &inverse;
     let parameters = Parameter::all();
     let free: Vec<Parameter> = problem.free.iter().map(|&index| parameters[index]).collect();
@@ -296,9 +298,10 @@ fn finished(mut problem: Problem, wander: &Wander, config: &GreyBoxConfig) -> Re
     let mut vector = problem.model(&problem.at).to_vector();
     for (at, &index) in problem.free.iter().enumerate() {
         let variance = sandwich[(at, at)].max(inverse[(at, at)]);
-        let std_in_scales = variance.sqrt();
+        let std_in_scales = variance.sqrt().hypot(EVEN_STD * overlap[at]);
         if std_in_scales < config.told_share * problem.prior_std[index] {
             std_uncertainty[index] = Some(std_in_scales * problem.scales[index]);
+            vector[index] += 0.5 * overlap[at] * problem.scales[index];
         } else {
             vector[index] = problem.start.to_vector()[index];
         }

@@ -21,6 +21,7 @@ mod fit;
 mod information;
 mod inputs;
 mod observation;
+mod overlap;
 mod parameters;
 mod prediction;
 mod problem;

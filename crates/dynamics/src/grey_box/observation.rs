@@ -15,6 +15,8 @@ pub struct SpeedObservation {
     pub speed_rad_s: Vector4<f64>,
     /// Information about the speeds, s²/rad²: the inverse of their covariance. It is singular where rotors cannot be separated.
     pub information: Matrix4<f64>,
+    /// By how much the speeds would move if the amplitudes of lines that overlap were drawn anew in each window, rad/s; 0 without sound.
+    pub overlap_rad_s: Vector4<f64>,
 }
 
 /// Observations of logged speeds: `speed_rad_s[rotor][row]`, each with this standard uncertainty. Rows with a gap are left out.
@@ -24,6 +26,7 @@ pub fn observations_of_rows(time_s: &[f64], speed_rad_s: [&[f64]; 4], std_rad_s:
         window_s: 0.0,
         speed_rad_s: Vector4::from_fn(|rotor, _| speed_rad_s[rotor][row]),
         information: Matrix4::identity() / (std_rad_s * std_rad_s),
+        overlap_rad_s: Vector4::zeros(),
     };
     let is_finite = |row: &usize| speed_rad_s.iter().all(|speeds| speeds[*row].is_finite());
     (0..time_s.len()).filter(is_finite).map(observation).collect()

@@ -1,6 +1,7 @@
 //! The fit to a recording: listen along the prediction, fit the model to what is heard, and again with more orders.
 
 use super::heard_lines::HeardLines;
+use super::mirror::with_positive_gains;
 use super::search::{reseated, start_model, with_delay, with_names};
 use super::turns::Turns;
 use super::window::{Window, likelihood};
@@ -95,10 +96,11 @@ pub fn grey_box_from_sound(
         let observations = observe(near, reach, inputs, &model, &windows, &precision, config);
         time_error_s = (0.5 * time_error_s).max(config.time_error_s_last);
         let fit = grey_box_near(&observations, inputs, start, &model, &config.fit)?;
+        let upright = with_positive_gains(&fit.model, &inputs.mixer);
         let seated = (round < seatings)
-            .then(|| reseated(near, inputs, &fit.model, &windows, order_max, start, config))
+            .then(|| reseated(near, inputs, &upright, &windows, order_max, start, config))
             .flatten()
-            .unwrap_or(fit.model);
+            .unwrap_or(upright);
         let named = with_names(near, inputs, &seated, &windows, order_max);
         (model, names_nats) = (named.model, named.margin_nats);
         if model == fit.model {
@@ -205,14 +207,15 @@ fn observe(
         }
         // the peak of the window alone: without the pull of the prediction
         let ridge = Matrix4::from_diagonal_element(1e-6 * at.information.trace() + f64::MIN_POSITIVE);
-        let unshrunk = (at.information + ridge).try_inverse().map_or(Vector4::zeros(), |inverse| inverse * at.gradient);
+        let inverse = (at.information + ridge).try_inverse().unwrap_or_else(Matrix4::zeros);
         let mut observed = SpeedObservation {
             time_s: window.time_s,
             window_s: window.length_s,
             speed_rad_s: Vector4::zeros(),
             information: at.information,
+            overlap_rad_s: -inverse * at.overlap,
         };
-        observed.speed_rad_s = observed.of_prediction(&prediction) + offset + unshrunk;
+        observed.speed_rad_s = observed.of_prediction(&prediction) + offset + inverse * at.gradient;
         observed
     };
     windows.iter().map(observation).collect()

@@ -13,6 +13,7 @@
 mod along;
 mod clock;
 mod heard_lines;
+mod mirror;
 mod search;
 mod turns;
 mod window;

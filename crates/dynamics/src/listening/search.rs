@@ -101,9 +101,8 @@ pub(super) fn with_delay(
 }
 
 /// The model with the gains of each loop in another ratio to the vehicle's, both gains together and the derivative's alone, with measured values
-/// that are later or earlier, with a part of the time constant as a delay,
-/// and with motors that are alike, where that makes the sound clearly more likely. `None` if nothing
-/// changes.
+/// that are later or earlier, with a part of the time constant as a delay or as a lead of the loops, and with motors that are alike, where that
+/// makes the sound clearly more likely. `None` if nothing changes.
 fn better_model(
     model: &GreyBoxModel,
     start: &GreyBoxModel,
@@ -144,6 +143,15 @@ fn better_model(
         let (command_delay_s, measured_delay_s) =
             (better.command_delay_s - shorter_s, better.measured_delay_s - shorter_s);
         keep_better(GreyBoxModel { time_constant_s, command_delay_s, measured_delay_s, ..better }, &mut better);
+    }
+    // and so does one whose loops lead by as much: (P + D s)/(1 + τ s) keeps its value at low frequencies with D + P Δτ and τ + Δτ
+    for factor in TIME_FACTORS {
+        let mut leading = GreyBoxModel { time_constant_s: factor * start.time_constant_s, ..better };
+        let slower_s = leading.time_constant_s - better.time_constant_s;
+        for gains in &mut leading.loops {
+            gains.derivative += gains.proportional * slower_s;
+        }
+        keep_better(leading, &mut better);
     }
     (better != *model).then_some(better)
 }

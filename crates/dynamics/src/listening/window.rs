@@ -21,15 +21,17 @@ pub(super) struct Window {
 pub(super) struct Likelihood {
     /// Logarithm of the likelihood ratio to "noise alone".
     pub(super) value: f64,
-    /// Gradient by the speeds, s/rad.
+    /// Gradient by the speeds, s/rad, without that of the determinant.
     pub(super) gradient: Vector4<f64>,
     /// Fisher information about the speeds, s²/rad².
     pub(super) information: Matrix4<f64>,
+    /// Gradient of the determinant, `ln det(1 + G/λ)`, by the speeds, s/rad: 0 where no lines overlap.
+    pub(super) overlap: Vector4<f64>,
 }
 
 impl Default for Likelihood {
     fn default() -> Self {
-        Self { value: 0.0, gradient: Vector4::zeros(), information: Matrix4::zeros() }
+        Self { value: 0.0, gradient: Vector4::zeros(), information: Matrix4::zeros(), overlap: Vector4::zeros() }
     }
 }
 
@@ -58,6 +60,7 @@ pub(super) fn likelihood(
         all.value += of_line.value;
         all.gradient += of_line.gradient;
         all.information += of_line.information;
+        all.overlap += of_line.overlap;
     }
     all
 }
@@ -170,7 +173,8 @@ fn solved(line: &HeardLine, sums: &Sums) -> Option<Solved> {
     Some(Solved { value: explained / line.noise - determinant, cholesky, amplitudes })
 }
 
-/// Gradient and Fisher information: a change of the speed of rotor i by x turns its line by order · x · s.
+/// Gradients and Fisher information: a change of the speed of rotor i by x turns its line by order · x · s. The gradient is that of
+/// `bᴴ (G + λ)⁻¹ b / n` alone; that of the determinant stands apart, as `overlap`.
 fn line_likelihood(line: &HeardLine, sums: &Sums) -> Likelihood {
     let Some(Solved { cholesky, amplitudes, value }) = solved(line, sums) else { return Likelihood::default() };
     let slope = amplitudes.map(|amplitude| C::new(0.0, line.order) * amplitude);
@@ -178,12 +182,15 @@ fn line_likelihood(line: &HeardLine, sums: &Sums) -> Likelihood {
     let gradient = Vector4::from_fn(|i, _| 2.0 / line.noise * (slope[i].conj() * left[i]).re);
     let shared = sums.gram_ss - sums.gram_s.adjoint() * cholesky.solve(&sums.gram_s);
     let information = Matrix4::from_fn(|i, k| 2.0 / line.noise * (slope[i].conj() * shared[(i, k)] * slope[k]).re);
-    Likelihood { value, gradient, information: (information + information.transpose()) / 2.0 }
+    let turned = cholesky.solve(&sums.gram_s.adjoint()).adjoint();
+    let overlap = Vector4::from_fn(|i, _| 2.0 * line.order * turned[(i, i)].im);
+    Likelihood { value, gradient, information: (information + information.transpose()) / 2.0, overlap }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grey_box::SpeedPrediction;
 
     #[test]
     fn phasors_are_those_of_the_standard_library() {
@@ -192,5 +199,49 @@ mod tests {
             (phasor(turn) - C::new(cos, sin)).norm()
         });
         assert!(worst.fold(0.0, f64::max) < 2e-7);
+    }
+
+    /// A line of four rotors, two of which turn nearly alike, heard for a second.
+    fn line_of_four() -> (HeardLines, SpeedPrediction) {
+        let speeds_rad_s = [500.0, 500.4, 503.0, 520.0];
+        let (rate_hz, order) = (200.0, 4.0);
+        let amplitudes = [1.0, 0.7, 1.3, 0.9].map(|size| C::from_polar(size, 2.0 * size));
+        let prediction = SpeedPrediction { start_s: 0.0, step_s: 0.01, speed_rad_s: vec![speeds_rad_s; 101] };
+        let carrier: Vec<f64> = (0..200).map(|n| order * 505.0 / TAU * f64::from(n) / rate_hz).collect();
+        let sample = |(n, carrier): (usize, &f64)| {
+            let time_s = n as f64 / rate_hz;
+            let line = |rotor: usize| amplitudes[rotor] * phasor(order * speeds_rad_s[rotor] * time_s / TAU - carrier);
+            let noise = 0.2 * phasor(0.37 * (n * n) as f64);
+            let sum = (0..4).map(line).sum::<C>() + noise;
+            Complex::new(sum.re as f32, sum.im as f32)
+        };
+        let samples = carrier.iter().enumerate().map(sample).collect();
+        let line = HeardLine { order, rate_hz, samples, carrier, noise: 0.04, amplitude_variance: 1.0 };
+        (HeardLines { start_s: 0.0, end_s: 1.0, lines: vec![line] }, prediction)
+    }
+
+    #[test]
+    fn gradient_and_overlap_together_are_the_gradient_of_the_value() {
+        let (heard, prediction) = line_of_four();
+        let turns = Turns::of(&prediction);
+        let window = Window { time_s: 0.5, length_s: 0.4 };
+        let offset = Vector4::new(0.5, -0.8, 0.3, 1.0);
+        let at = likelihood(&heard, 10.0, &turns, window, &offset);
+        for rotor in 0..4 {
+            let value = |by: f64| {
+                let mut moved = offset;
+                moved[rotor] += by;
+                likelihood_value(&heard, 10.0, &turns, window, &moved)
+            };
+            let expected = (value(1e-3) - value(-1e-3)) / 2e-3;
+            let found = at.gradient[rotor] - at.overlap[rotor];
+            assert!((found - expected).abs() < 1e-3 * (1.0 + expected.abs()), "{rotor}: {found} {expected}");
+        }
+        // the first two push each other apart without it, and the last one stands alone
+        assert!(
+            at.overlap[0] * at.overlap[1] < 0.0 && at.overlap[3].abs() < 0.2 * at.overlap[0].abs(),
+            "{}",
+            at.overlap
+        );
     }
 }
