@@ -136,7 +136,7 @@ pub(crate) fn trust(record: &GreyBoxRecord) -> String {
             "the ± is about right: in simulated flights of a minute, 90 to 100 % of the errors were within it, and 95 % should be"
         }
         false => {
-            "the ± is a little too small: in simulated flights of a minute outdoors, 83 to 91 % of the errors were within it, and 95 % should be; compare with another flight (--check)"
+            "the ± is for a flight outdoors, and a little too small: in simulated flights of a minute, 87 to 95 % of the errors were within it, and 95 % should be; in a room only 26 to 52 % were; compare with another flight (--check)"
         }
     };
     if record.is_doubtful() {

@@ -15,7 +15,7 @@ pub struct SpeedObservation {
     pub speed_rad_s: Vector4<f64>,
     /// Information about the speeds, s²/rad²: the inverse of their covariance. It is singular where rotors cannot be separated.
     pub information: Matrix4<f64>,
-    /// By how much the speeds would move if the amplitudes of lines that overlap were drawn anew in each window, rad/s; 0 without sound.
+    /// By how much the speeds would move if the amplitudes of lines that overlap were independent from window to window, rad/s; 0 without sound.
     pub overlap_rad_s: Vector4<f64>,
 }
 

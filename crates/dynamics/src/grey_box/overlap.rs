@@ -1,9 +1,9 @@
-//! How far the parameters depend on what is taken for the amplitudes of lines that overlap.
+//! How far the parameters depend on how the amplitudes of overlapping lines change with time.
 //!
-//! Two limits are known. Where the amplitudes are drawn anew in each window, the likelihood of a window has the term `−ln det(1 + G/λ)`, which draws
-//! rotors of nearly one speed together. Where they stay as they are, it has none. Rotors are between the two, so that a parameter is moved by half of
-//! what the term would move it, and the whole counts as the width of an even distribution. On simulated flights of an F450 with rotors 0.03 to 0.3 %
-//! apart, errors of 0.7 to 1.4 % of its gains go with shifts of 0.7 to 3 %, all of the sign that makes them smaller.
+//! Two limits are known. Where the amplitudes are independent from window to window, the likelihood of a window has the term `−ln det(1 + G/λ)`,
+//! which draws rotors of nearly one speed together. Where they stay as they are, it has none. Rotors are between the two. So a parameter is moved by
+//! half of what the term would move it, and the whole shift counts as the width of an even distribution. On simulated flights of an F450 with rotors
+//! 0.03 to 0.3 % apart, errors of 0.7 to 1.4 % of its gains go with shifts of 0.7 to 3 %, all of the sign that makes them smaller.
 
 use super::problem::Problem;
 use nalgebra::{DMatrix, DVector};
