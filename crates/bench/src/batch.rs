@@ -2,6 +2,7 @@
 //! Run by people, never in a test.
 
 use crate::cost::{Cost, once};
+use crate::options::whole_number;
 use crate::workspace::{cargo, target};
 use hovertone_sim::HoverSettings;
 use hovertone_sim::HoverSound;
@@ -31,7 +32,7 @@ const FLAGS: [&str; 5] = ["--blades", "2", "--rotors", "1", "--no-progress"];
 pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     let count = match options {
         [] => COUNT,
-        ["--count", count] => count.parse().map_err(|_| format!("--count {count}: not a whole number"))?,
+        ["--count", count] => whole_number("--count", count)?,
         _ => return Err("cargo run --release -p hovertone-bench -- batch [--count N]".to_owned()),
     };
     cargo(root, &["build", "--release", "--locked", "-p", "hovertone-cli"])?;

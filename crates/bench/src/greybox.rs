@@ -1,6 +1,7 @@
 //! `cargo run --release -p hovertone-bench -- greybox`: the low-level model of simulated flights against their truth, from logged speeds
 //! and from sound. Prints the tables of `docs/greybox.md`. Run by people; its test flies fewer.
 
+use crate::options::whole_number;
 use hovertone::sound::{Passes, Signal};
 use hovertone_dynamics::{
     Checked, ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, LineOrders, LoopInputs, MotorVolts,
@@ -77,18 +78,18 @@ struct Exam {
     logged: u64,
     heard: u64,
     first_seed: u64,
-    vehicles: Vec<String>,
+    vehicles: Vec<&'static str>,
     sources: Vec<Source>,
     is_listed: bool,
 }
 
 impl Exam {
-    fn from_options(options: &[&str]) -> Result<Self, String> {
+    fn of_options(options: &[&str]) -> Result<Self, String> {
         let mut exam = Self {
             logged: LOGGED,
             heard: HEARD,
             first_seed: 1,
-            vehicles: VEHICLES.map(str::to_owned).to_vec(),
+            vehicles: VEHICLES.to_vec(),
             sources: vec![Source::Logged, Source::HeardInTheOpen, Source::HeardInARoom],
             is_listed: false,
         };
@@ -99,17 +100,17 @@ impl Exam {
                 continue;
             }
             let value = options.next().ok_or(USAGE)?;
-            let number = || value.parse().map_err(|_| format!("{option} {value}: not a whole number"));
+            let number = || whole_number(option, value);
             match *option {
                 "--logged" => exam.logged = number()?,
                 "--heard" => exam.heard = number()?,
                 "--first-seed" => exam.first_seed = number()?,
-                "--vehicle" => exam.vehicles = vec![(*value).to_owned()],
+                "--vehicle" => exam.vehicles.retain(|vehicle| vehicle == value),
                 "--only" => exam.sources.retain(|source| source.option() == *value),
                 _ => return Err(USAGE.to_owned()),
             }
         }
-        Ok(exam)
+        if exam.vehicles.is_empty() || exam.sources.is_empty() { Err(USAGE.to_owned()) } else { Ok(exam) }
     }
 
     fn seeds(&self, source: Source) -> std::ops::Range<u64> {
@@ -120,7 +121,7 @@ impl Exam {
 
 /// Runs the exam.
 pub(crate) fn run(options: &[&str]) -> Result<(), String> {
-    let exam = Exam::from_options(options)?;
+    let exam = Exam::of_options(options)?;
     println!(
         "| vehicle | speeds | flights | all k_p within 5 % | median error of k_p | within 2 u | median error of τ | rms on another flight |"
     );

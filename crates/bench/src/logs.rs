@@ -4,6 +4,7 @@
 mod writers;
 
 use crate::cost::{REPEATS, fastest};
+use crate::options::whole_number;
 use crate::workspace::{cargo, target};
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
@@ -27,7 +28,7 @@ struct Short {
 pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     let megabytes = match options {
         [] => MEGABYTES,
-        ["--mb", megabytes] => megabytes.parse().map_err(|_| format!("--mb {megabytes}: not a whole number"))?,
+        ["--mb", megabytes] => whole_number("--mb", megabytes)?,
         _ => return Err("cargo run --release -p hovertone-bench -- logs [--mb N]".to_owned()),
     };
     cargo(root, &["build", "--release", "--locked", "-p", "hovertone-cli"])?;

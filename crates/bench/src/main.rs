@@ -10,6 +10,7 @@ mod greybox;
 mod labels;
 mod logs;
 mod motor;
+mod options;
 mod real;
 mod rotors;
 mod rotors_report;

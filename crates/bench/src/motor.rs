@@ -1,5 +1,6 @@
 //! Constants of motors from the sound of steps: simulated benches with one to four rotors, heard as `hovertone motor` does.
 
+use crate::options::whole_number;
 use hovertone::motors::{HeardMotor, HeardTone, MotorConstants, constants_of, level_of_rotors, motor_from_sound};
 use hovertone::sound::{Passes, Signal};
 use hovertone::speed::{Config, ToneConfig};
@@ -72,10 +73,8 @@ impl Exam {
             let value = rest.next().ok_or(USAGE)?;
             let wrong = |_| format!("{option} {value}: not a number");
             match option {
-                "--count" => exam.count = value.parse().map_err(|_| format!("{option} {value}: not a whole number"))?,
-                "--first-seed" => {
-                    exam.first_seed = value.parse().map_err(|_| format!("{option} {value}: not a whole number"))?;
-                }
+                "--count" => exam.count = whole_number(option, value)?,
+                "--first-seed" => exam.first_seed = whole_number(option, value)?,
                 "--reverberation" => exam.reverberation_s = value.parse().map_err(wrong)?,
                 "--only" => exam.is_room = Some(*value == "room"),
                 "--vehicle" => exam.vehicles = VEHICLES.into_iter().filter(|vehicle| vehicle == value).collect(),

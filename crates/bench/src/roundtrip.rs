@@ -1,6 +1,7 @@
 //! Simulate → WAV → identify, for a hundred random hovers: how often C_f comes back within its own stated U (k = 2).
 //! Run by people, never in a test; `crates/cli/tests/command/roundtrip.rs` does ten of them.
 
+use crate::options::whole_number;
 use crate::workspace::cargo;
 use crate::workspace::target;
 use hovertone::vehicle::COVERAGE_FACTOR;
@@ -56,9 +57,7 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     let (mut count, mut spread_share) = (SCENARIO_COUNT, SPREAD_SHARE);
     for pair in options.chunks(2) {
         match pair {
-            ["--count", number] => {
-                count = number.parse().map_err(|_| format!("--count {number}: not a whole number"))?
-            }
+            ["--count", number] => count = whole_number("--count", number)?,
             ["--spread", share] => {
                 spread_share = share.parse().map_err(|_| format!("--spread {share}: not a number"))?
             }

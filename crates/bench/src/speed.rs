@@ -2,6 +2,7 @@
 //! real time and to decoding alone, with peak memory. Run by people, never in a test.
 
 use crate::cost::{REPEATS, fastest};
+use crate::options::whole_number;
 use crate::workspace::cargo;
 use crate::workspace::target;
 use hovertone::sound::SignalSource;
@@ -40,7 +41,7 @@ const CONTAINERS: [(&str, &[&str]); 15] = [
 pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     let minutes = match options {
         [] => MINUTES,
-        ["--minutes", minutes] => minutes.parse().map_err(|_| format!("--minutes {minutes}: not a whole number"))?,
+        ["--minutes", minutes] => whole_number("--minutes", minutes)?,
         _ => return Err("cargo run --release -p hovertone-bench -- speed [--minutes N]".to_owned()),
     };
     cargo(root, &["build", "--release", "--locked", "-p", "hovertone-cli", "-p", "hovertone-bench"])?;

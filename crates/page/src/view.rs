@@ -5,8 +5,7 @@ use hovertone_report::{
     Identification, Row, ScaledNumber, TextTable, Verdict, counted, rotors_heard_text, scaled_number, tone_of_order,
 };
 use hovertone_thrust::ThrustTable;
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::Estimate;
+use hovertone_vehicle::{COVERAGE_FACTOR, Estimate};
 
 /// A unit: "1e-5 N s²" becomes 10⁻⁵ N s².
 pub(crate) struct Unit {

@@ -11,8 +11,7 @@ use crate::text_table::{Column, TextTable};
 use crate::typeset::TitledTable;
 use hovertone_analysis::{OtherRotor, Warning};
 use hovertone_dynamics::{Advice, Checked, GreyBoxFit, Parameter, TorqueConstant};
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::{Axis, Estimate, RotorSpeed, in_list};
+use hovertone_vehicle::{Axis, COVERAGE_FACTOR, Estimate, RotorSpeed, in_list};
 
 const MS_PER_S: f64 = 1e3;
 const PERCENT: f64 = 100.0;

@@ -1,8 +1,7 @@
 //! Numbers for people, with as many digits as their uncertainty allows. Only this file decides about digits, and about what ± means: the
 //! expanded uncertainty, k = 2, everywhere.
 
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::Estimate;
+use hovertone_vehicle::{COVERAGE_FACTOR, Estimate};
 
 /// Digits of a value with unknown uncertainty.
 const DIGITS_WITHOUT_UNCERTAINTY: usize = 6;

@@ -4,8 +4,7 @@ use crate::number::{PowerOfTen, fixed, with_uncertainty};
 use crate::thrust::{CONSTANT_UNIT, WITHOUT_FLIGHTS};
 use hovertone_analysis::RotorsHeardCounts;
 use hovertone_thrust::{ThrustTable, ThrustWarning, p_value_text};
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::{Estimate, Order};
+use hovertone_vehicle::{COVERAGE_FACTOR, Estimate, Order};
 
 /// Whether the loads agree with each other.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,8 +6,7 @@ use crate::recording::SpeedRecord;
 use crate::thrust::WITHOUT_FLIGHTS;
 use crate::version::VERSION;
 use hovertone_thrust::WeighedHover;
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::{Estimate, RotorSpeed};
+use hovertone_vehicle::{COVERAGE_FACTOR, Estimate, RotorSpeed};
 use serde::Serialize;
 
 /// Digits of a mass without uncertainty.

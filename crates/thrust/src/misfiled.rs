@@ -6,8 +6,7 @@ use crate::statistics::median;
 use crate::warning::ThrustWarning;
 use crate::warning_words::first_names;
 use crate::weighing::ALIKE_SHARE_MAX;
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::RotorSpeed;
+use hovertone_vehicle::{COVERAGE_FACTOR, RotorSpeed};
 
 /// Fewest trials of a load among which one can be called far from the others. *Decision.*
 const TRIALS_MIN: usize = 4;

@@ -6,9 +6,8 @@ use super::sound::{Colour, Noise, Rotor, SAMPLE_RATE_HZ, Turning, mean_rev_s, re
 use super::track::median;
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, Method, Outcome, RotorsConfig, SpeedAnalysis, ToneConfig, speed_from_source};
-use hovertone::vehicle::COVERAGE_FACTOR;
 use hovertone_sim::prescribed::Line;
-use hovertone_vehicle::Order;
+use hovertone_vehicle::{COVERAGE_FACTOR, Order};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 

@@ -20,6 +20,7 @@ mod track;
 mod workbench;
 
 use crate::document::Document;
+use crate::options::whole_number;
 use crate::workspace::made_by;
 pub(crate) use draws::drawn;
 use std::fs;
@@ -130,13 +131,11 @@ fn options_of(words: &[&str]) -> Result<Options, String> {
             continue;
         }
         let value = words.next().ok_or_else(usage)?;
-        let count = || value.parse().map_err(|_| format!("{name} {value}: not a whole number"));
+        let count = || whole_number(name, value);
         match *name {
             "--draws" => options.draws = count()?,
             "--coverage" => options.coverage_draws = count()?,
-            "--minutes" => {
-                options.minutes = value.parse().map_err(|_| format!("{name} {value}: not a whole number"))?
-            }
+            "--minutes" => options.minutes = whole_number(name, value)?,
             "--only" => {
                 let part = Part::ALL.iter().find(|(part_name, _)| part_name == value).ok_or_else(usage)?;
                 options.only = Some(part.1);

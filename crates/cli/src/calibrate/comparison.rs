@@ -7,9 +7,8 @@ use crate::failure::Failure;
 use crate::order_words::{times, times_per_turn};
 use crate::vehicles::preset;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
-use hovertone::vehicle::COVERAGE_FACTOR;
 use hovertone_report::{fixed, printable, with_uncertainty};
-use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Gear, Order, RotorSpeed};
+use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, COVERAGE_FACTOR, Gear, Order, RotorSpeed};
 use serde_json::json;
 
 const SECONDS_PER_MINUTE: f64 = 60.0;

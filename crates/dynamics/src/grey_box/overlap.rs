@@ -11,10 +11,7 @@ use nalgebra::{DMatrix, DVector};
 /// By how much each free parameter moves, in scales, if every observation moves by its [`overlap_rad_s`](super::SpeedObservation::overlap_rad_s): one
 /// step of Gauss and Newton. `of_data` is the Jacobian of the residuals of the observations, and `inverse` the covariance of the parameters.
 pub(super) fn overlap_shift(of_data: &DMatrix<f64>, inverse: &DMatrix<f64>, problem: &Problem<'_>) -> DVector<f64> {
-    let moved = problem.roots.iter().zip(problem.observations).flat_map(|(root, observation)| {
-        let moved = root * observation.overlap_rad_s;
-        [moved[0], moved[1], moved[2], moved[3]]
-    });
+    let moved = problem.weighed(problem.observations.iter().map(|observation| observation.overlap_rad_s));
     let moved = DVector::from_iterator(of_data.nrows(), moved);
     -(inverse * (of_data.transpose() * moved))
 }

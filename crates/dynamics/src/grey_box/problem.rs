@@ -43,6 +43,12 @@ impl Problem<'_> {
         self.observations.iter().map(|observation| observation.of_prediction(&prediction)).collect()
     }
 
+    /// The coordinates of four speeds for each observation, times the root of its weight.
+    pub(super) fn weighed(&self, speeds: impl IntoIterator<Item = Vector4<f64>>) -> impl Iterator<Item = f64> {
+        let weighed = self.roots.iter().zip(speeds).map(|(root, four)| root * four);
+        weighed.flat_map(|four| [four[0], four[1], four[2], four[3]])
+    }
+
     /// Observed less predicted speeds.
     pub(super) fn differences(&self) -> Vec<Vector4<f64>> {
         let speeds = self.speeds(&self.at);
@@ -64,8 +70,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let weighed = self.differences().into_iter().zip(&self.roots).map(|(difference, root)| root * difference);
-        let of_data = weighed.flat_map(|four| [four[0], four[1], four[2], four[3]]);
+        let of_data = self.weighed(self.differences());
         let of_priors = self.at.iter().zip(&self.free).map(|(value, &index)| value / self.prior_std[index]);
         let all: Vec<f64> = of_data.chain(of_priors).collect();
         all.iter().all(|residual| residual.is_finite()).then(|| DVector::from_vec(all))

@@ -180,10 +180,10 @@ fn line_likelihood(line: &HeardLine, sums: &Sums) -> Likelihood {
     let slope = amplitudes.map(|amplitude| C::new(0.0, line.order) * amplitude);
     let left = sums.products_s - sums.gram_s * amplitudes;
     let gradient = Vector4::from_fn(|i, _| 2.0 / line.noise * (slope[i].conj() * left[i]).re);
-    let shared = sums.gram_ss - sums.gram_s.adjoint() * cholesky.solve(&sums.gram_s);
+    let turned = cholesky.solve(&sums.gram_s);
+    let shared = sums.gram_ss - sums.gram_s.adjoint() * turned;
     let information = Matrix4::from_fn(|i, k| 2.0 / line.noise * (slope[i].conj() * shared[(i, k)] * slope[k]).re);
-    let turned = cholesky.solve(&sums.gram_s.adjoint()).adjoint();
-    let overlap = Vector4::from_fn(|i, _| 2.0 * line.order * turned[(i, i)].im);
+    let overlap = Vector4::from_fn(|i, _| -2.0 * line.order * turned[(i, i)].im);
     Likelihood { value, gradient, information: (information + information.transpose()) / 2.0, overlap }
 }
 

@@ -7,8 +7,7 @@ use crate::regression::Agreement;
 use crate::settings::{ThrustSettings, UncertaintyInputs};
 use crate::square_law::{LawAgreement, PointNoise, SquareLawFit, covering_factor};
 use crate::statistics::mean;
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::SOUND_M_S;
+use hovertone_vehicle::{COVERAGE_FACTOR, SOUND_M_S};
 use serde::Serialize;
 
 /// Inputs of a thrust constant.

@@ -7,8 +7,7 @@ use crate::drift::Drift;
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
 use crate::warning_words::is_shifted_point;
-use hovertone_vehicle::COVERAGE_FACTOR;
-use hovertone_vehicle::{Estimate, KNOWN_MASS_SHARES, is_swamped};
+use hovertone_vehicle::{COVERAGE_FACTOR, Estimate, KNOWN_MASS_SHARES, is_swamped};
 use serde::Serialize;
 
 /// A reason to doubt a thrust constant.

@@ -7,7 +7,7 @@ pub use contradiction::WeighError;
 use crate::settings::UncertaintyInputs;
 use crate::statistics::{mean, std, student_factor};
 use crate::warning::ThrustWarning;
-use hovertone_vehicle::{Ending, Estimate, MASS_FACTOR_MAX, RotorSpeed};
+use hovertone_vehicle::{COVERAGE_FACTOR, Ending, Estimate, MASS_FACTOR_MAX, RotorSpeed};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// A payload may come out negative by this share of the vehicle's mass: thinner or denser air, another battery. *Decision.*
@@ -116,7 +116,7 @@ impl WeighedHover {
     pub fn is_below_vehicle(&self) -> bool {
         self.payload_kg.is_some_and(|payload| {
             let vehicle_kg = self.mass_kg.value - payload.value;
-            let expanded_kg = hovertone_vehicle::COVERAGE_FACTOR * payload.std_uncertainty.unwrap_or(0.0);
+            let expanded_kg = COVERAGE_FACTOR * payload.std_uncertainty.unwrap_or(0.0);
             payload.value < -expanded_kg.max(LIGHTER_SHARE_MAX * vehicle_kg)
         })
     }

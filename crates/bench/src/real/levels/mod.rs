@@ -15,6 +15,7 @@ use super::library::{LoadedCase, answer_to, config_of_blades};
 use super::progress::Progress;
 use super::{REAL, TruthSet, data_folder};
 use crate::accuracy::drawn;
+use crate::options::whole_number;
 use crate::workspace::{made_by, target};
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, SpanConfig, evidence_near};
@@ -37,7 +38,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
         match pair {
             ["--data", folder] => data = Some(*folder),
             ["--flights", number] => {
-                flight_count = number.parse().map_err(|_| format!("--flights {number}: not a whole number"))?;
+                flight_count = whole_number("--flights", number)?;
             }
             _ => return Err(USAGE.to_owned()),
         }

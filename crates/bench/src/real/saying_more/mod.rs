@@ -10,6 +10,7 @@ use super::progress::Progress;
 use super::{data_folder, semi_real, sentence};
 use crate::accuracy::drawn;
 use crate::document::Document;
+use crate::options::whole_number;
 use crate::workspace::{made_by, target};
 use comparison::{Compared, Outcome};
 use std::fs;
@@ -29,7 +30,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
         match pair {
             ["--semi-real", folder] => semi_real_folder = Some(*folder),
             ["--flights", number] => {
-                flight_count = number.parse().map_err(|_| format!("--flights {number}: not a whole number"))?;
+                flight_count = whole_number("--flights", number)?;
             }
             _ => return Err(USAGE.to_owned()),
         }
