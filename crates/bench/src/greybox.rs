@@ -69,6 +69,8 @@ struct Examined {
     check: Option<Checked>,
     /// Hover speed of each rotor over their mean, less 1.
     apart_share: [f64; 4],
+    /// Whether the sound is said to have echoes.
+    has_echoes: bool,
 }
 
 const USAGE: &str = "cargo run --release -p hovertone-bench -- greybox [--logged N] [--heard N] [--first-seed N] [--vehicle NAME] [--only logged|open|room] [--list]";
@@ -123,9 +125,9 @@ impl Exam {
 pub(crate) fn run(options: &[&str]) -> Result<(), String> {
     let exam = Exam::of_options(options)?;
     println!(
-        "| vehicle | speeds | flights | all k_p within 5 % | median error of k_p | within 2 u | median error of τ | rms on another flight |"
+        "| vehicle | speeds | flights | all k_p within 5 % | median error of k_p | within 2 u | median error of τ | rms on another flight | echoes found |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|");
     for &source in &exam.sources {
         let seeds = exam.seeds(source);
         for preset in exam.vehicles.iter().filter(|_| !seeds.is_empty()) {
@@ -168,12 +170,13 @@ fn row_of(preset: &str, source: Source, all: &[Option<Examined>]) -> String {
         Source::HeardInARoom => "heard, room",
     };
     format!(
-        "| {preset} | {speeds} | {} | {right} | {:.2} % | {:.0} % | {:.2} % | {:.3} % |",
+        "| {preset} | {speeds} | {} | {right} | {:.2} % | {:.0} % | {:.2} % | {:.3} % | {} |",
         all.len(),
         100.0 * errors(&|flight| Some(flight.gain_error)),
         100.0 * within as f64 / deviations.len().max(1) as f64,
         100.0 * errors(&|flight| Some(flight.time_constant_error)),
         100.0 * errors(&|flight| Some(flight.check?.rms_share)),
+        told.iter().filter(|flight| flight.has_echoes).count(),
     )
 }
 
@@ -279,13 +282,15 @@ fn truth_of(vehicle: &FlightParameters, hover_rad_s: [f64; 4], motor_gain: f64) 
     truth
 }
 
-fn fit_of(flown: &mut Flown, preset: &str, source: Source) -> Option<GreyBoxFit> {
+/// The fit, and whether the sound is said to have echoes.
+fn fit_of(flown: &mut Flown, preset: &str, source: Source) -> Option<(GreyBoxFit, bool)> {
     let vehicle = find_flight_parameters(preset)?;
     let start = GreyBoxModel::of(vehicle, vehicle.mass_kg.value, GRAVITY_STANDARD_M_S2);
     if source == Source::Logged {
         let speeds = [0, 1, 2, 3].map(|rotor: usize| flown.speeds[rotor].as_slice());
         let observations = observations_of_rows(&flown.time_s, speeds, 0.1);
-        return grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default()).ok();
+        let fit = grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default()).ok()?;
+        return Some((fit, false));
     }
     let hover_rev_s = start.mean_hover_rad_s() / TAU;
     let mut quiet = |_| {};
@@ -293,14 +298,15 @@ fn fit_of(flown: &mut Flown, preset: &str, source: Source) -> Option<GreyBoxFit>
     let orders = LineOrders::of(find_preset(preset)?)?;
     let range = 0.7 * hover_rev_s..1.35 * hover_rev_s;
     let lines = lines_from_passes(&mut passes, 0.0..f64::INFINITY, &orders, range).ok()?;
-    Some(grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default(), &mut |_| {}).ok()?.fit)
+    let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default(), &mut |_| {}).ok()?;
+    Some((heard.fit, heard.echoes.is_some()))
 }
 
 /// The exam of one flight; `None` where it could not be flown or fitted.
 fn examined(preset: &str, seed: u64, source: Source, duration_s: f64) -> Option<Examined> {
     let [doublets, check] = scenarios(preset, seed, source, duration_s)?;
     let mut flight = flown(&doublets, source != Source::Logged)?;
-    let fit = fit_of(&mut flight, preset, source)?;
+    let (fit, has_echoes) = fit_of(&mut flight, preset, source)?;
     let truth = flight.truth.to_vector();
     let error = |at: usize| fit.model.to_vector()[at] / truth[at] - 1.0;
     let compared = |parameter: &Parameter| {
@@ -330,6 +336,7 @@ fn examined(preset: &str, seed: u64, source: Source, duration_s: f64) -> Option<
         time_constant_error: error(12).abs(),
         check: checked(&observations_of_rows(&other.time_s, speeds, 0.1), &prediction),
         apart_share: flight.truth.hover_rad_s.map(|hover| hover / flight.truth.mean_hover_rad_s() - 1.0),
+        has_echoes,
     })
 }
 

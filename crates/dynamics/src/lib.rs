@@ -35,7 +35,8 @@ pub use combined::CombinedEstimate;
 pub use config::MotorConfig;
 pub use grey_box::*;
 pub use listening::{
-    HeardLines, LineOrders, SoundConfig, SoundFit, grey_box_from_sound, lines_from_passes, log_offset_s, speeds_along,
+    Echoes, HeardLines, LineOrders, SoundConfig, SoundFit, grey_box_from_sound, lines_from_passes, log_offset_s,
+    speeds_along,
 };
 pub use load::{LOAD_STEPS_MIN, LoadTerm};
 pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series, torque_of_motor};

@@ -1,7 +1,6 @@
 //! The grey box of eqs 1 and 2: a table for people.
 
 use crate::motor::torque_constant_text;
-use crate::notice::Notice;
 use crate::number::{DASH, fixed, significant, with_uncertainty};
 use crate::other_hover::OtherHover;
 use crate::printable::printable;
@@ -9,8 +8,8 @@ use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::typeset::TitledTable;
-use hovertone_analysis::{OtherRotor, Warning};
-use hovertone_dynamics::{Advice, Checked, GreyBoxFit, Parameter, TorqueConstant};
+use hovertone_analysis::OtherRotor;
+use hovertone_dynamics::{Advice, Checked, Echoes, GreyBoxFit, Parameter, TorqueConstant};
 use hovertone_vehicle::{Axis, COVERAGE_FACTOR, Estimate, RotorSpeed, in_list};
 
 const MS_PER_S: f64 = 1e3;
@@ -49,6 +48,8 @@ pub struct GreyBoxRecord {
     pub other_hover: Option<OtherHover>,
     /// Loss of likelihood by the best swap of two names, nats; absent for logged speeds.
     pub names_nats: Option<f64>,
+    /// The echoes of the place of the flight, which the model does not contain; `None` in the open, and for logged speeds.
+    pub echoes: Option<Echoes>,
     /// C_τ, or why not.
     pub torque_constant: TorqueConstant,
     /// What is missing.
@@ -68,18 +69,18 @@ impl GreyBoxRecord {
     /// Whether something speaks against the model, so that its numbers may be wrong by more than their ±.
     pub fn is_doubtful(&self) -> bool {
         let has_other = self.better.is_some() || self.other_hover.is_some() || self.unexplained().is_some();
-        has_other || self.are_names_doubtful() || !self.axes_of_negative_gains().is_empty()
+        has_other || self.echoes.is_some() || self.are_names_doubtful() || !self.axes_of_negative_gains().is_empty()
     }
 
     /// How far the predicted speeds are from those of the fitted flight, where the model leaves much of their change unexplained.
-    fn unexplained(&self) -> Option<&Checked> {
+    pub(crate) fn unexplained(&self) -> Option<&Checked> {
         self.fitted.as_ref().filter(|fitted| {
             PERCENT * fitted.change_share >= PERCENT_MIN && fitted.rms_share > UNEXPLAINED_SHARE * fitted.change_share
         })
     }
 
     /// The loops whose command answers an error in the wrong direction.
-    fn axes_of_negative_gains(&self) -> Vec<&'static str> {
+    pub(crate) fn axes_of_negative_gains(&self) -> Vec<&'static str> {
         let is_negative = |axis: &Axis| {
             let told = self.fit.estimate(Parameter::Proportional(*axis));
             told.is_some_and(|told| told.value < -COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0))
@@ -135,7 +136,7 @@ pub(crate) fn trust(record: &GreyBoxRecord) -> String {
             "the ± is about right: in simulated flights of a minute, 90 to 100 % of the errors were within it, and 95 % should be"
         }
         false => {
-            "the ± is for a flight outdoors, and a little too small: in simulated flights of a minute, 87 to 95 % of the errors were within it, and 95 % should be; in a room only 26 to 52 % were; compare with another flight (--check)"
+            "the ± is for a flight outdoors, and a little too small: in simulated flights of a minute, 87 to 95 % of the errors were within it, and 95 % should be; compare with another flight (--check)"
         }
     };
     if record.is_doubtful() {
@@ -185,45 +186,6 @@ fn negative_delay(record: &GreyBoxRecord) -> Option<String> {
         }
     };
     Some(format!("{} is negative, although no true delay is; {meaning}", delay.in_words()))
-}
-
-/// What speaks against the model: gains that no controller has, and a rotor of another vehicle.
-pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
-    let axes = record.axes_of_negative_gains();
-    let gains = (!axes.is_empty()).then(|| {
-        let (gains, are) = if axes.len() > 1 { ("gains", "are") } else { ("gain", "is") };
-        let what = format!(
-            "the {gains} k_p of {} {are} negative (the command answers an error in the wrong direction), and no \
-            vehicle can fly with negative gains",
-            in_list(&axes, "and")
-        );
-        Notice::new(what, "check --log-axes, and the signs of the commands and of the measured values in the log")
-    });
-    let better = record.better.map(Warning::FitsElsewhere);
-    let hover = record.other_hover.map(Notice::from);
-    let names = record.are_names_doubtful().then(|| {
-        Notice::new(
-            "the sound hardly shows which rotor is which: two hover speeds may be exchanged, and the gains may be wrong",
-            "place the microphone nearer to the vehicle, or use a log that has the speeds of the rotors",
-        )
-    });
-    let unexplained = record.unexplained().map(|fitted| {
-        let what = format!(
-            "the model explains too little of this flight: the predicted speeds differ from the speeds in the flight by {} % (rms), and these \
-            change by {} % (rms)",
-            significant(PERCENT * fitted.rms_share, 2),
-            significant(PERCENT * fitted.change_share, 2)
-        );
-        let hint = "log the command and the measured value of each loop that was flown; the tables show the loops that are left out with –";
-        Notice::new(what, hint)
-    });
-    hover
-        .into_iter()
-        .chain(names)
-        .chain(gains)
-        .chain(unexplained)
-        .chain(better.map(|better| Notice::new(better.to_string(), better.hint())))
-        .collect()
 }
 
 /// That the clock of a log was moved; `None` where it was right.

@@ -3,7 +3,7 @@
 use crate::grey_box::{GreyBoxRecord, trust};
 use crate::notice::Notice;
 use crate::version::VERSION;
-use hovertone_dynamics::{Correlation, Parameter, TorqueConstant};
+use hovertone_dynamics::{Correlation, Echoes, Parameter, TorqueConstant};
 use hovertone_vehicle::{Axis, Estimate};
 use serde::Serialize;
 
@@ -22,6 +22,7 @@ struct GreyBoxLine<'a> {
     condition: f64,
     correlations: Vec<CorrelationLine>,
     names_nats: Option<f64>,
+    echoes: Option<EchoesLine>,
     log_moved_s: f64,
     advice: Vec<AdviceLine<'a>>,
     rms_share: Option<f64>,
@@ -44,6 +45,12 @@ struct LoopLine {
     name: &'static str,
     proportional_v: Option<Estimate>,
     derivative_v: Option<Estimate>,
+}
+
+#[derive(Serialize)]
+struct EchoesLine {
+    direct_share: f64,
+    reverberation_s: f64,
 }
 
 #[derive(Serialize)]
@@ -113,6 +120,9 @@ pub fn grey_box_json(record: &GreyBoxRecord, warnings: &[Notice]) -> serde_json:
         correlations: fit.information.correlations.iter().map(correlation).collect(),
         log_moved_s: record.log_moved_s,
         names_nats: record.names_nats.filter(|nats| nats.is_finite()),
+        echoes: record
+            .echoes
+            .map(|Echoes { direct_share, reverberation_s }| EchoesLine { direct_share, reverberation_s }),
         advice: record.advice.iter().map(|advice| AdviceLine { what: &advice.what, hint: &advice.hint }).collect(),
         rms_share: record.fitted.map(|fitted| fitted.rms_share),
         check: record.other_flight.as_ref().map(|other| CheckLine {

@@ -44,6 +44,7 @@ mod folded_warnings;
 mod given;
 mod grey_box;
 mod grey_box_json;
+mod grey_box_warnings;
 mod logged;
 mod missing_speed;
 mod models;
@@ -94,9 +95,9 @@ pub use folded_warnings::{
 };
 pub use grey_box::{
     CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_notes, grey_box_tables, grey_box_text,
-    grey_box_warnings,
 };
 pub use grey_box_json::grey_box_json;
+pub use grey_box_warnings::grey_box_warnings;
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use motor::{BENCH_RUN, motor_text};

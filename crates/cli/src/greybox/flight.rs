@@ -10,7 +10,7 @@ use crate::recording::{Hearing, better_rotor, lines_of};
 use crate::vehicles::not_in_flight_model;
 use hovertone::speed::{Config, OtherRotor};
 use hovertone_dynamics::{
-    ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, HeardLines, LineOrders,
+    ControlKnowns, ControlLog, Echoes, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, HeardLines, LineOrders,
     LoopInputs, MotorVolts, SoundConfig, SoundFit, SpeedObservation, SpeedPrediction, checked, grey_box_from_sound,
     grey_box_from_speeds, log_offset_s, observations_of_rows, speeds_along,
 };
@@ -240,6 +240,8 @@ pub(crate) struct Heard {
     pub(crate) fit: GreyBoxFit,
     pub(crate) observations: Vec<SpeedObservation>,
     pub(crate) names_nats: Option<f64>,
+    /// The echoes of the place; `None` in the open.
+    pub(crate) echoes: Option<Echoes>,
     /// A rotor of another vehicle that fits the sound far better.
     pub(crate) better: Option<OtherRotor>,
     /// Where the mass of the vehicle means another hover speed than that of the flight.
@@ -311,7 +313,7 @@ pub(crate) fn fit_of(
                 let what = "the rotor speeds of this log do not change, so no model can be found";
                 return Err(Failure::failed(what, FLY_DOUBLETS, &files.log));
             }
-            Ok(Heard { fit, observations, names_nats: None, better: None, other_hover })
+            Ok(Heard { fit, observations, names_nats: None, echoes: None, better: None, other_hover })
         }
         Some(recording) => {
             let mean = heard_mean(recording, vehicle, hearing, progress)?;
@@ -325,9 +327,8 @@ pub(crate) fn fit_of(
             let fitting = &mut progress.next("fitting the model to the sound");
             let told = &mut |share| fitting.set(share);
             let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default(), told);
-            let heard = heard.map_err(stopped)?;
-            let SoundFit { fit, observations, names_nats } = heard;
-            Ok(Heard { fit, observations, names_nats: Some(names_nats), better, other_hover })
+            let SoundFit { fit, observations, names_nats, echoes } = heard.map_err(stopped)?;
+            Ok(Heard { fit, observations, names_nats: Some(names_nats), echoes, better, other_hover })
         }
     }
 }

@@ -112,6 +112,7 @@ pub(crate) fn record_of(
         slope_v_s_rad: vehicle.slope_v_s_rad(&heard.fit),
         places: vehicle.parameters.layout.value.place_names(),
         names_nats: heard.names_nats,
+        echoes: heard.echoes,
         torque_constant: torque_constant(&flown.log, &flown.inputs, &heard.fit, &body),
         advice: advice_of(&heard.fit, &flown.inputs),
         fitted: checked(&heard.observations, &heard.fit.prediction(&flown.inputs)),

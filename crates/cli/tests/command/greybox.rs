@@ -1,20 +1,22 @@
 //! `hovertone greybox`: the low-level model from a flight of doublets.
 
 use crate::testkit::{hovertone, refused_with, text};
-use hovertone_sim::scenario::{ControllerSection, DoubletAmounts, GainsSection, ScenarioFile};
+use hovertone_sim::scenario::{ControllerSection, DoubletAmounts, GainsSection, RoomSection, ScenarioFile};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
 const ROLL: GainsSection = GainsSection { proportional: 0.09, derivative: 0.08, limit_v: 0.6552 };
 
-/// Flies doublets of an AR.Drone with another roll gain; returns the folder.
+/// Flies doublets of an AR.Drone with another roll gain, on open ground; returns the folder.
 fn flown(folder: &Path, name: &str, seed: u64, duration_s: f64) -> String {
+    flown_in(folder, name, ScenarioFile::doublets("ardrone", seed, duration_s, DoubletAmounts::default()))
+}
+
+/// The same where these doublets are flown.
+fn flown_in(folder: &Path, name: &str, doublets: ScenarioFile) -> String {
     let controller = ControllerSection { roll: Some(ROLL), ..ControllerSection::default() };
-    let scenario = ScenarioFile {
-        controller: Some(controller),
-        ..ScenarioFile::doublets("ardrone", seed, duration_s, DoubletAmounts::default())
-    };
+    let scenario = ScenarioFile { controller: Some(controller), ..doublets };
     let path = folder.join(format!("{name}.toml"));
     fs::write(&path, toml::to_string(&scenario).unwrap()).unwrap();
     let place = folder.join(name);
@@ -166,10 +168,29 @@ fn the_sound_finds_the_clock_of_the_log_and_refuses_a_log_that_it_does_not_follo
     assert!((moved_s - 2.4).abs() < 0.051, "{moved_s}");
     let hover = parameter(&line, "hover_1_rad_s")["value"].as_f64().unwrap();
     assert!((hover / 377.0 - 1.0).abs() < 0.01, "{hover}");
+    assert!(line["echoes"].is_null(), "{}", line["echoes"]);
     // further off than clocks are sought
     let refusal = heard("15").ends_with(1).stderr;
     assert!(
         refusal.contains("do not follow the commands of this log") && refusal.contains("--log-offset-s"),
         "{refusal}"
     );
+}
+
+#[test]
+#[ignore = "exam: a flight of doublets, heard"]
+fn echoes_of_a_room_are_said_with_what_they_do_to_the_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let outdoors = ScenarioFile::doublets("ardrone", 1, 25.0, DoubletAmounts::default());
+    let indoors = ScenarioFile { ground: None, room: Some(RoomSection::default()), ..outdoors };
+    let flight = flown_in(folder.path(), "room", indoors);
+    let files = [format!("{flight}/sound.wav"), format!("{flight}/truth.csv")];
+    let run = hovertone(&["greybox", &files[0], &files[1], "--vehicle", "ardrone", "--json", "--no-progress"]);
+    let line = run.ends_with(3).json_lines().remove(0);
+    // that of the room is 0.6 s
+    let reverberation_s = line["echoes"]["reverberation_s"].as_f64().unwrap();
+    assert!((0.3..=1.4).contains(&reverberation_s), "{reverberation_s}");
+    let warnings = line["warnings"].to_string();
+    assert!(warnings.contains("this place has echoes") && warnings.contains("fly outdoors"), "{warnings}");
+    assert!(line["trust"].as_str().unwrap().contains("wrong by more than their ±"), "{}", line["trust"]);
 }

@@ -2,6 +2,7 @@
 
 use super::heard_lines::HeardLines;
 use super::mirror::with_positive_gains;
+use super::place::{Echoes, echoes_of};
 use super::search::{reseated, start_model, with_delay, with_names};
 use super::turns::Turns;
 use super::window::{Window, likelihood};
@@ -36,7 +37,7 @@ pub struct SoundConfig {
     pub hover_share: f64,
     /// Half of the range of the rotors about their mean, as a share. *Decision.*
     pub spread_share: f64,
-    /// Standard uncertainty of the time of changes by echoes. *Physics*: the ground reflects half of the sound 2 ms later.
+    /// Standard uncertainty of the time of changes by echoes, where the place is open. *Physics*: the ground reflects half of the sound 2 ms later.
     pub echo_std_s: f64,
     /// The fit.
     pub fit: GreyBoxConfig,
@@ -69,6 +70,8 @@ pub struct SoundFit {
     /// By how much the likelihood falls, in nats, if two rotors swap their names: the smallest over all pairs. Rotors whose hover speeds are equal
     /// need no names.
     pub names_nats: f64,
+    /// The echoes of the place; `None` in the open. They are no part of the model.
+    pub echoes: Option<Echoes>,
 }
 
 /// Fits the model to a recording. `start` is the vehicle by its numbers. `told` gets the finished share after each round.
@@ -110,8 +113,10 @@ pub fn grey_box_from_sound(
         told((round + 2) as f64 / steps);
     }
     let (fit, observations) = last.ok_or(GreyBoxStop::NotConverged)?;
-    let fit = fit.with_time_uncertainty(config.echo_std_s).with_doppler_uncertainty(inputs.lever_m);
-    Ok(SoundFit { fit, observations, names_nats })
+    let echoes = echoes_of(heard, &fit.prediction(inputs), &windows, &observations);
+    let late_s = echoes.map_or(0.0, |echoes| echoes.mean_delay_s()).max(config.echo_std_s);
+    let fit = fit.with_time_uncertainty(late_s).with_doppler_uncertainty(inputs.lever_m);
+    Ok(SoundFit { fit, observations, names_nats, echoes })
 }
 
 /// The speeds of another flight, heard along the prediction of a fitted model, and the prediction. The clocks of log and recording may

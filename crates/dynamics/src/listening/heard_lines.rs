@@ -1,6 +1,7 @@
 //! Sound → one complex signal for each order.
 
 use super::turns::Turns;
+use super::window::Window;
 use crate::grey_box::SpeedPrediction;
 use hovertone_signal::channels::{ChannelBand, ChannelBank};
 use hovertone_signal::passes::{Passes, StretchListener};
@@ -49,6 +50,16 @@ pub(super) struct HeardLine {
     pub(super) noise: f64,
     /// Power of one rotor's line above the noise; the variance of its amplitude.
     pub(super) amplitude_variance: f64,
+}
+
+impl HeardLine {
+    /// The first sample of a window, and the first behind it.
+    pub(super) fn samples_of(&self, start_s: f64, window: Window) -> (usize, usize) {
+        let at = |time_s: f64| ((time_s - start_s) * self.rate_hz).max(0.0);
+        let half_s = window.length_s / 2.0;
+        let first = at(window.time_s - half_s).ceil() as usize;
+        (first, (at(window.time_s + half_s).floor() as usize).min(self.samples.len()))
+    }
 }
 
 /// All lines of a recording.

@@ -12,8 +12,10 @@
 
 mod along;
 mod clock;
+mod echoed;
 mod heard_lines;
 mod mirror;
+mod place;
 mod search;
 mod turns;
 mod window;
@@ -21,3 +23,4 @@ mod window;
 pub use along::{SoundConfig, SoundFit, grey_box_from_sound, speeds_along};
 pub use clock::log_offset_s;
 pub use heard_lines::{HeardLines, LineOrders, lines_from_passes};
+pub use place::Echoes;

@@ -30,8 +30,8 @@ const DELAY_STEP_S: f64 = 0.003;
 /// Candidates of a rotor that is sought again, and steps to both sides of each. *Numeric.*
 const CANDIDATES: usize = 3;
 const FINE_STEPS: i32 = 3;
-/// By how much a rotor must make the sound more likely to move, nats. *Decision.*
-const BETTER_NATS: f64 = 20.0;
+/// By how much the sound must be more likely with another model than with the one so far, nats. *Decision.*
+pub(super) const BETTER_NATS: f64 = 20.0;
 /// Sweeps over rotors and loops. *Numeric.*
 const SWEEPS: usize = 2;
 
