@@ -65,7 +65,7 @@ pub(super) fn echoes_of(
         moving.iter().map(of_window).sum::<f64>() - open
     };
     let first = Echoes { direct_share: DIRECT_SHARES[0], reverberation_s: REVERBERATIONS_S[0] };
-    let mut best = Heard { echoes: first, nats: nats(first) };
+    let mut best = Likeliest { echoes: first, nats: nats(first) };
     for _ in 0..ROUNDS {
         for direct_share in DIRECT_SHARES {
             best.take_better(Echoes { direct_share, ..best.echoes }, nats);
@@ -78,12 +78,12 @@ pub(super) fn echoes_of(
 }
 
 /// The most likely echoes so far, and by how much more likely they are than none.
-struct Heard {
+struct Likeliest {
     echoes: Echoes,
     nats: f64,
 }
 
-impl Heard {
+impl Likeliest {
     fn take_better(&mut self, echoes: Echoes, nats: impl Fn(Echoes) -> f64) {
         if echoes == self.echoes {
             return;
