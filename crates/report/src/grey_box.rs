@@ -12,8 +12,8 @@ use hovertone_analysis::OtherRotor;
 use hovertone_dynamics::{Advice, Checked, Echoes, GreyBoxFit, Parameter, TorqueConstant};
 use hovertone_vehicle::{Axis, COVERAGE_FACTOR, Estimate, RotorSpeed, in_list};
 
-const MS_PER_S: f64 = 1e3;
-const PERCENT: f64 = 100.0;
+pub(crate) const MS_PER_S: f64 = 1e3;
+pub(crate) const PERCENT: f64 = 100.0;
 /// Share of the change of the speeds which the model must not leave unexplained.
 const UNEXPLAINED_SHARE: f64 = 0.3;
 /// Shortest flight to which the tests of the ± apply: they flew a minute.

@@ -1,15 +1,12 @@
 //! What speaks against a grey box.
 
-use crate::grey_box::GreyBoxRecord;
+use crate::grey_box::{GreyBoxRecord, MS_PER_S, PERCENT};
 use crate::notice::Notice;
 use crate::number::significant;
 use hovertone_analysis::Warning;
 use hovertone_vehicle::in_list;
 
-const MS_PER_S: f64 = 1e3;
-const PERCENT: f64 = 100.0;
-
-/// What speaks against the model: another hover speed, names in doubt, echoes, gains that no controller has, and a rotor of another vehicle.
+/// What speaks against the model, each with what to do.
 pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     let axes = record.axes_of_negative_gains();
     let gains = (!axes.is_empty()).then(|| {

@@ -11,6 +11,7 @@ use crate::grey_box::{
 };
 use nalgebra::{Matrix4, Vector4};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Bands about the mean of the predicted speeds, as shares, before the search and after it. *Decision*: mean hover speed, gains and
 /// spread may be off.
@@ -150,8 +151,7 @@ fn rising_orders(heard: &HeardLines) -> Vec<f64> {
 /// Windows with the sound and the log, overlapping by half.
 fn windows_of(heard: &HeardLines, inputs: &LoopInputs, length_s: f64) -> Vec<Window> {
     let (from_s, to_s) = (heard.start_s.max(inputs.start_s), heard.end_s.min(inputs.end_s()));
-    let is_known = |window: &Window| inputs.knows(window.time_s - 0.5 * length_s, window.time_s + 0.5 * length_s);
-    windows_within(from_s, to_s, length_s).into_iter().filter(is_known).collect()
+    windows_within(from_s, to_s, length_s).into_iter().filter(|window| window.is_known(inputs)).collect()
 }
 
 /// Windows of a span, overlapping by half.
@@ -171,15 +171,15 @@ struct Reach {
 
 impl Reach {
     fn order_max_in(&self, prediction: &SpeedPrediction, window: Window) -> f64 {
-        let widest_rad_s = widest_rad_s(prediction, window);
+        let widest_rad_s = widest_rad_s(prediction, window.span_s());
         self.order_max.min(0.25 * TAU / (widest_rad_s * self.time_error_s))
     }
 }
 
-/// Range of the predicted speed within a window, of the rotor that moves most.
-pub(super) fn widest_rad_s(prediction: &SpeedPrediction, window: Window) -> f64 {
+/// Range of the predicted speed within a span, of the rotor that moves most.
+pub(super) fn widest_rad_s(prediction: &SpeedPrediction, span_s: Range<f64>) -> f64 {
     let place = |time_s: f64| ((time_s - prediction.start_s) / prediction.step_s).max(0.0) as usize;
-    let (from, to) = (place(window.time_s - window.length_s / 2.0), place(window.time_s + window.length_s / 2.0));
+    let (from, to) = (place(span_s.start), place(span_s.end));
     let speeds = &prediction.speed_rad_s[from..(to + 1).min(prediction.speed_rad_s.len())];
     let range = |rotor: usize| {
         let of_rotor = || speeds.iter().map(|four| four[rotor]);

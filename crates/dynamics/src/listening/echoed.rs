@@ -12,7 +12,7 @@ use super::place::Echoes;
 use super::turns::Turns;
 use super::window::{C, Window, phasor};
 use nalgebra::{DMatrix, DVector, Vector4};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Length of the echoes that count, in decays. *Numeric*: 26 dB.
 const DECAYS: f64 = 6.0;
@@ -26,17 +26,13 @@ pub(super) fn echoed_value(
     window: Window,
     offset_rad_s: &Vector4<f64>,
 ) -> f64 {
-    let half_s = window.length_s / 2.0;
     let (first, last) = line.samples_of(start_s, window);
     let count = last.saturating_sub(first);
     let before = (DECAYS * echoes.decay_s() * line.rate_hz).ceil() as usize;
     let time_at = |at: usize| start_s + (first as f64 + at as f64 - before as f64) / line.rate_hz;
-    let root = |at: usize| (0.5 + 0.5 * (PI * (time_at(before + at) - window.time_s) / half_s).cos()).max(0.0).sqrt();
+    let root = |at: usize| window.weight(time_at(before + at) - window.time_s).sqrt();
     let roots: Vec<f64> = (0..count).map(root).collect();
-    let sample = |at: usize, _| {
-        let z = line.samples[first + at];
-        C::new(f64::from(z.re), f64::from(z.im)) * phasor(line.carrier[first + at]) * roots[at]
-    };
+    let sample = |at: usize, _| line.sample(first + at) * phasor(line.carrier[first + at]) * roots[at];
     let samples = DVector::from_fn(count, sample);
     let turned: Vec<[f64; 4]> = (0..before + count).map(|at| turns.at(time_at(at))).collect();
     let mut covariance = DMatrix::from_diagonal_element(count, count, C::new(line.noise, 0.0));

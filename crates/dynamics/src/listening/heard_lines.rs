@@ -56,9 +56,13 @@ impl HeardLine {
     /// The first sample of a window, and the first behind it.
     pub(super) fn samples_of(&self, start_s: f64, window: Window) -> (usize, usize) {
         let at = |time_s: f64| ((time_s - start_s) * self.rate_hz).max(0.0);
-        let half_s = window.length_s / 2.0;
-        let first = at(window.time_s - half_s).ceil() as usize;
-        (first, (at(window.time_s + half_s).floor() as usize).min(self.samples.len()))
+        let span_s = window.span_s();
+        (at(span_s.start).ceil() as usize, (at(span_s.end).floor() as usize).min(self.samples.len()))
+    }
+
+    pub(super) fn sample(&self, index: usize) -> Complex<f64> {
+        let sample = self.samples[index];
+        Complex::new(f64::from(sample.re), f64::from(sample.im))
     }
 }
 

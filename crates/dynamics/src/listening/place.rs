@@ -1,5 +1,6 @@
 //! Whether the place of a flight has echoes, and which.
 
+use super::along::widest_rad_s;
 use super::echoed::echoed_value;
 use super::heard_lines::HeardLines;
 use super::search::BETTER_NATS;
@@ -51,7 +52,7 @@ pub(super) fn echoes_of(
 ) -> Option<Echoes> {
     let turns = Turns::of(prediction);
     let near = heard.followed(prediction, ECHO_SHARE);
-    let moving = moving_windows(&turns, prediction, windows, observations);
+    let moving = moving_windows(prediction, windows, observations);
     let length_s = windows.first().map_or(0.0, |window| window.length_s);
     let few = near.lines.iter().filter(|line| line.rate_hz * length_s <= SAMPLES_MAX);
     let order_max = few.map(|line| line.order).fold(0.0, f64::max);
@@ -97,14 +98,14 @@ impl Likeliest {
 
 /// The windows in which the speeds change most, each with what was heard beside the prediction.
 fn moving_windows(
-    turns: &Turns<'_>,
     prediction: &SpeedPrediction,
     windows: &[Window],
     observations: &[SpeedObservation],
 ) -> Vec<(Window, Vector4<f64>)> {
+    // half of a window before it is heard in it as echoes
     let range_rad_s = |(window, _): &(&Window, _)| {
-        let half_s = window.length_s / 2.0;
-        turns.range_rad_s(window.time_s - 2.0 * half_s..window.time_s + half_s)
+        let span_s = window.span_s();
+        widest_rad_s(prediction, span_s.start - window.length_s / 2.0..span_s.end)
     };
     let mut moving: Vec<(&Window, &SpeedObservation)> = windows.iter().zip(observations).collect();
     moving.sort_by(|a, b| range_rad_s(b).total_cmp(&range_rad_s(a)));

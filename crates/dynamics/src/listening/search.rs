@@ -334,10 +334,8 @@ impl<'a> HoverListener<'a> {
 /// The windows in which the prediction moves least, made longer.
 fn quiet_windows(inputs: &LoopInputs, prediction: &SpeedPrediction, windows: &[Window]) -> Vec<Window> {
     let longer = windows.iter().map(|window| Window { length_s: HOVER_LENGTH * window.length_s, ..*window });
-    let mut longer: Vec<Window> = longer
-        .filter(|window| inputs.knows(window.time_s - 0.5 * window.length_s, window.time_s + 0.5 * window.length_s))
-        .collect();
-    longer.sort_by(|a, b| widest_rad_s(prediction, *a).total_cmp(&widest_rad_s(prediction, *b)));
+    let mut longer: Vec<Window> = longer.filter(|window| window.is_known(inputs)).collect();
+    longer.sort_by(|a, b| widest_rad_s(prediction, a.span_s()).total_cmp(&widest_rad_s(prediction, b.span_s())));
     longer.truncate(HOVER_WINDOWS);
     longer
 }

@@ -2,7 +2,6 @@
 
 use crate::grey_box::SpeedPrediction;
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 /// Turns of the four rotors since the first point of a prediction.
 pub(super) struct Turns<'a> {
@@ -39,18 +38,5 @@ impl<'a> Turns<'a> {
             let mean = from[rotor] + 0.5 * share * (to[rotor] - from[rotor]);
             self.turns[before][rotor] + (mean * since_s + from[rotor] * outside_s) / TAU
         })
-    }
-
-    /// Range of the speed within a span, of the rotor that moves most.
-    pub(super) fn range_rad_s(&self, span_s: Range<f64>) -> f64 {
-        let place = |time_s: f64| ((time_s - self.prediction.start_s) / self.prediction.step_s).max(0.0) as usize;
-        let count = self.prediction.speed_rad_s.len();
-        let from = place(span_s.start).min(count.saturating_sub(1));
-        let speeds = &self.prediction.speed_rad_s[from..(place(span_s.end) + 1).clamp(from, count)];
-        let range = |rotor: usize| {
-            let of_rotor = || speeds.iter().map(|four| four[rotor]);
-            of_rotor().fold(0.0, f64::max) - of_rotor().fold(f64::INFINITY, f64::min)
-        };
-        (0..4).map(range).fold(0.0, f64::max)
     }
 }

@@ -2,8 +2,10 @@
 
 use super::heard_lines::{HeardLine, HeardLines};
 use super::turns::Turns;
+use crate::grey_box::LoopInputs;
 use nalgebra::{Cholesky, Complex, Matrix4, U4, Vector4};
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 pub(super) type C = Complex<f64>;
 
@@ -14,6 +16,25 @@ pub(super) struct Window {
     pub(super) time_s: f64,
     /// Its length. Windows overlap by half, so that their weights add up to one.
     pub(super) length_s: f64,
+}
+
+impl Window {
+    /// From its first to its last moment.
+    pub(super) fn span_s(self) -> Range<f64> {
+        let half_s = self.length_s / 2.0;
+        self.time_s - half_s..self.time_s + half_s
+    }
+
+    /// Whether the log knows all that the loops see in it.
+    pub(super) fn is_known(self, inputs: &LoopInputs) -> bool {
+        let span_s = self.span_s();
+        inputs.knows(span_s.start, span_s.end)
+    }
+
+    /// Its weight (Hann) at a time from its middle.
+    pub(super) fn weight(self, place_s: f64) -> f64 {
+        0.5 + 0.5 * (PI * place_s / (self.length_s / 2.0)).cos()
+    }
 }
 
 /// The logarithm of the likelihood of a window about the predicted speeds, to the second order.
@@ -96,12 +117,11 @@ fn sums_of<const MOMENTS: bool>(
         products: Vector4::zeros(),
         products_s: Vector4::zeros(),
     };
-    let half_s = window.length_s / 2.0;
     let (first, last) = line.samples_of(start_s, window);
     for index in first..last {
         let time_s = start_s + index as f64 / line.rate_hz;
         let s = time_s - window.time_s;
-        let weight = 0.5 + 0.5 * (PI * s / half_s).cos();
+        let weight = window.weight(s);
         let own = turns.at(time_s);
         let carrier = line.carrier[index];
         let lines: [C; 4] = std::array::from_fn(|rotor| {
@@ -110,8 +130,7 @@ fn sums_of<const MOMENTS: bool>(
             }
             phasor(line.order * (own[rotor] + offset_rad_s[rotor] * s / TAU) - carrier)
         });
-        let sample = line.samples[index];
-        let sample = C::new(f64::from(sample.re), f64::from(sample.im));
+        let sample = line.sample(index);
         for i in 0..4 {
             let weighed = lines[i].conj() * weight;
             sums.products[i] += weighed * sample;
