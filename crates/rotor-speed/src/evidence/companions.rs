@@ -13,14 +13,14 @@ use std::f64::consts::SQRT_2;
 
 /// Largest distance of a rotor of the same vehicle, as a logarithm of the speed: those of real quadrotors differ by up to 22 % from slowest to
 /// fastest. *Physics.*
-const DISTANCE_MAX: f64 = 0.22;
+pub(super) const DISTANCE_MAX: f64 = 0.22;
 /// Standard deviation of that distance: of two rotors that are independent. *Physics.*
 const DISTANCE_STD: f64 = SQRT_2 * ROTOR_STD_SHARE;
 /// Smallest distance of another rotor that is looked for, as a logarithm of the speed: the speed of one rotor is not known better in a frame.
 /// *Decision.*
 pub(crate) const COMPANION_DISTANCE_MIN: f64 = 0.01;
 /// Largest distance of a rotor from the middle of all, as a logarithm of the speed. *Physics.*
-const HALF_RANGE_MAX: f64 = DISTANCE_MAX / 2.0;
+pub(super) const HALF_RANGE_MAX: f64 = DISTANCE_MAX / 2.0;
 
 /// What is heard of other rotors of the vehicle beside one.
 #[derive(Clone, Copy, Debug)]

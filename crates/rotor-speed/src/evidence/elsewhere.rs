@@ -12,10 +12,9 @@ use super::votes::VoteTable;
 use hovertone_analysis::OtherRotor;
 use hovertone_vehicle::KnownRotor;
 
-/// The lines of a rotor are about those of another, whose blade pass is at the ratio of two numbers up to this … *Decision.*
-const RATIO_PARTS: u32 = 3;
-/// … or up to this, where speeds are left out, so that the path may be at any lines. *Decision.*
-const RATIO_PARTS_OF_NARROWED: u32 = 5;
+/// The lines of a rotor are about those of another, whose blade pass is at the ratio of two numbers up to this: where speeds are left out, the path
+/// may be at any lines. *Decision.*
+const RATIO_PARTS: u32 = 5;
 
 /// The path of a rotor in frames of one length.
 struct PathInLook<'a, 'b> {
@@ -51,7 +50,6 @@ pub(super) fn better_elsewhere(
     let own_blades = first.lines.blades.filter(|_| first.lines.mesh_order.is_none())?;
     let any = &wanted.where_unknown;
     let searched_rev_s = &wanted.propellers.first()?.speeds_rev_s;
-    let own = any.iter().find(|propeller| propeller.lines == first.lines);
     // how common a number of blades is tells nothing about one that was counted
     let prior_nats = |speed_rev_s: f64| nats_of_vehicle(speed_rev_s, &KnownRotor::default(), config);
     let own_prior_nats = prior_nats(first.hover_rev_s);
@@ -62,14 +60,12 @@ pub(super) fn better_elsewhere(
     let [short, long] = models;
     let mut short = PathInLook { look: &looks.short, speeds_rev_s: first.speeds_rev_s.clone(), model: short };
     let own_nats = short.nats(&first.lines, 1.0);
-    let is_narrowed = own.is_none_or(|own| own.speeds_rev_s != *searched_rev_s);
-    let parts = || 1..=if is_narrowed { RATIO_PARTS_OF_NARROWED } else { RATIO_PARTS };
     let mut better: Vec<(f64, &WantedPropeller, f64)> = Vec::new();
     for propeller in any {
         let Some(blades) = propeller.lines.blades else { continue };
         let is_compared =
             |speed_rev_s: f64| !has_prior && blades == own_blades && searched_rev_s.contains(&speed_rev_s);
-        for (over, under) in parts().flat_map(|over| parts().map(move |under| (over, under))) {
+        for (over, under) in (1..=RATIO_PARTS).flat_map(|over| (1..=RATIO_PARTS).map(move |under| (over, under))) {
             let ratio = f64::from(over * own_blades) / f64::from(under * blades);
             let speed_rev_s = ratio * first.hover_rev_s;
             let is_possible = propeller.speeds_rev_s.contains(&speed_rev_s) && speed_rev_s >= RESOLVED_REV_S;

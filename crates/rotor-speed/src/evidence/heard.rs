@@ -18,15 +18,10 @@ use super::votes::VoteTable;
 use crate::harmonic::STEADY_S_MIN;
 use std::ops::RangeInclusive;
 
-/// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
-const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
-/// Voices and instruments at a time that are told from a rotor. *Decision.*
-const VOICES_MAX: u32 = 2;
-
 /// Compares the hypotheses in two looks at the same sound: without a voice, where one sounds; in long frames alone, where short ones hear no rotor:
 /// a faint, steady one, which must keep its phase, so that a shorter sound cannot hold it. `None` where no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    beliefs_beside_voices(looks, wanted, config).or_else(|| {
+    clear_beliefs_from_looks(looks, wanted, config).or_else(|| {
         if looks.long.length_s() < STEADY_S_MIN {
             return None;
         }
@@ -55,24 +50,21 @@ struct HeardVoice {
     without: Looks,
 }
 
-/// The beliefs in the sound without the voices that are heard in it. The rotor goes on while a voice sounds, so that it keeps most of its votes: a
+/// The same of a rotor that short frames hear: in the sound without a voice, where one sounds. The rotor goes on while a voice sounds, so that it keeps most of its votes: a
 /// motor that jumps from speed to speed leaves a small rest of its lines, which is no rotor.
-fn beliefs_beside_voices(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    let mut without_voice: Option<Looks> = None;
-    let mut votes_nats_min = f64::NEG_INFINITY;
-    for _ in 0..=VOICES_MAX {
-        match beliefs_of(without_voice.as_ref().unwrap_or(looks), wanted, config)? {
-            Heard::Rotor(beliefs) => {
-                let votes_nats = beliefs.hypotheses.first()?.votes_nats;
-                return (votes_nats >= votes_nats_min).then_some(Beliefs { without_voice, ..beliefs });
-            }
-            Heard::Voice(voice) => {
-                votes_nats_min = f64::max(votes_nats_min, VOTES_SHARE_MIN * voice.rotor_votes_nats);
-                without_voice = Some(voice.without);
-            }
-        }
-    }
-    None
+pub(crate) fn clear_beliefs_from_looks(
+    looks: &Looks,
+    wanted: &WantedRotor,
+    config: &EvidenceConfig,
+) -> Option<Beliefs> {
+    let voice = match beliefs_of(looks, wanted, config)? {
+        Heard::Rotor(beliefs) => return Some(beliefs),
+        Heard::Voice(voice) => voice,
+    };
+    let Heard::Rotor(beliefs) = beliefs_of(&voice.without, wanted, config)? else { return None };
+    let votes_nats = beliefs.hypotheses.first()?.votes_nats;
+    let is_most = votes_nats >= VOTES_SHARE_MIN * voice.rotor_votes_nats;
+    is_most.then_some(Beliefs { without_voice: Some(voice.without), ..beliefs })
 }
 
 /// What sounds in these frames. `None` where neither a rotor nor a voice is heard.
@@ -201,12 +193,6 @@ fn look_at<'a>(excess: &Excess, wanted: &WantedRotor, config: &'a EvidenceConfig
         search.speeds_of_paths().filter_map(|speeds_rev_s| noise_level(excess, &speeds_rev_s)).collect()
     };
     let mut noises: Vec<NoiseLevel> = Vec::new();
-    let any = wanted.propellers.first()?;
-    for blades in NOISE_BLADES.map(RotorLines::of_blades) {
-        if wanted.propellers.iter().all(|wanted| wanted.lines != blades) {
-            noises.extend(noises_of(&Search::of(excess, &blades, &any.speeds_rev_s)?));
-        }
-    }
     // votes are large, so that those of the last propeller alone are kept
     let mut last: Option<Search> = None;
     let mut found: Vec<(&WantedPropeller, Vec<Multiple>)> = Vec::new();

@@ -1,18 +1,17 @@
 //! Hypotheses: speeds and numbers of blades, and the belief in each.
 
+use super::companions::HALF_RANGE_MAX;
 use super::excess::Excess;
 use super::level_model::{LevelModel, RotorLevels};
 use super::levels::levels_of_lines;
 use super::prior::odds_nats;
 use super::rotor_lines::RotorLines;
-use super::search::{Multiple, ROTORS_APART, VOTES_NATS_APART, is_family};
-use crate::thresholds::{HOVER_WIDTH_SHARE, NEARLY_ALL};
+use super::search::Multiple;
+use crate::thresholds::HOVER_WIDTH_SHARE;
 use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
 
-/// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats.
-const OTHER_VOTES_SHARE_MIN: f64 = NEARLY_ALL;
 /// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
 /// So a slower rotor is heard only where the diameter, the vehicle or the band says that it may be there. *Decision.*
 pub(super) const RESOLVED_REV_S: f64 = 30.0;
@@ -49,9 +48,9 @@ pub(crate) struct Hypothesis {
 }
 
 impl Hypothesis {
-    /// Whether a rotor at another speed may belong to the same vehicle, in the same octave.
+    /// Whether a speed is that of the same rotor, or of another one of the same vehicle near it, in the same octave.
     pub(crate) fn is_of_same_vehicle(&self, speed_rev_s: f64) -> bool {
-        (self.speed_rev_s / speed_rev_s).ln().abs() < ROTORS_APART
+        (self.speed_rev_s / speed_rev_s).ln().abs() < HALF_RANGE_MAX
     }
 
     /// Whether its lines are more probable than those of another one, at odds of `belief_min`.
@@ -125,21 +124,10 @@ fn most_frequent_rev_s(speeds_rev_s: &[f64]) -> Option<f64> {
 
 /// The best path of each speed, most probable first. Paths of rotors of one vehicle are one hypothesis.
 pub(super) fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
-    // octaves are compared along one path; another path that is no family of it explains the frames as well, or it is none
+    // octaves are compared along one path: the one with the most nats
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
-    let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
-    let Some(Hypothesis { path: best, speed_rev_s, votes_nats, speeds_rev_s, .. }) = best.cloned() else {
-        return paths;
-    };
-    let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
-    // a path that changes between octaves of the best one is no other rotor
-    let changes_octave = |path: &Hypothesis| {
-        let of_best = path.speeds_rev_s.iter().zip(&speeds_rev_s).filter(|&(own, best)| is_family(*own, *best));
-        2 * of_best.count() > speeds_rev_s.len()
-    };
-    let is_other = |path: &Hypothesis| path.votes_nats >= least_nats && !changes_octave(path);
-    paths.retain(|path| path.path == best || is_family(path.speed_rev_s, speed_rev_s) || is_other(path));
-    paths.sort_by(|a, b| (b.path == best).cmp(&(a.path == best)).then(b.nats.total_cmp(&a.nats)));
+    let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b))).map(|path| path.path);
+    paths.sort_by(|a, b| (Some(b.path) == best).cmp(&(Some(a.path) == best)).then(b.nats.total_cmp(&a.nats)));
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     for path in paths {
         if !hypotheses.iter().any(|other| other.is_of_same_vehicle(path.speed_rev_s)) {
@@ -165,39 +153,4 @@ pub(super) fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
     let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
     hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
     hypotheses
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn along(path: usize, speeds_rev_s: &[f64], votes_nats: f64) -> Hypothesis {
-        Hypothesis {
-            lines: RotorLines::of_blades(2),
-            speeds_rev_s: speeds_rev_s.to_vec(),
-            speed_rev_s: mean(speeds_rev_s).expect("speeds"),
-            hover_rev_s: speeds_rev_s[0],
-            path,
-            factor: 1.0,
-            votes_nats,
-            quiet_votes_nats: votes_nats,
-            levels_nats: 0.0,
-            nats: 0.0,
-            levels: RotorLevels::default(),
-            near_levels: None,
-            belief: 0.0,
-        }
-    }
-
-    #[test]
-    fn a_path_that_changes_between_octaves_of_the_best_one_is_no_other_rotor() {
-        let best = along(0, &[100.0; 10], 13.0);
-        let changing = along(1, &[150.0, 150.0, 150.0, 150.0, 125.0, 100.0, 100.0, 100.0, 100.0, 100.0], 10.0);
-        let octave = along(2, &[50.0; 10], 1.0);
-        let other = along(3, &[118.0; 10], 10.0);
-        let kept = one_of_each_speed(vec![best, changing, octave, other]);
-        let mut paths: Vec<usize> = kept.iter().map(|it| it.path).collect();
-        paths.sort_unstable();
-        assert_eq!(paths, [0, 2, 3]);
-    }
 }

@@ -62,7 +62,7 @@ mod votes;
 pub(crate) use beliefs::Beliefs;
 pub(crate) use companions::{COMPANION_DISTANCE_MIN, Companions};
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
-pub(crate) use heard::beliefs_from_looks;
+pub(crate) use heard::{beliefs_from_looks, clear_beliefs_from_looks};
 pub(crate) use hypotheses::{Hypothesis, WantedPropeller, WantedRotor};
 pub use level_model::OrderLevel;
 pub use levels::NoiseLevel;

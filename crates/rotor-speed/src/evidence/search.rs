@@ -1,5 +1,6 @@
 //! The speeds with the most votes: a path in each window of speeds, and its multiples.
 
+use super::companions::DISTANCE_MAX;
 use super::excess::Excess;
 use super::path::best_path;
 use super::pauses::quiet_frames;
@@ -28,13 +29,10 @@ pub(super) const VOTES_SHARE_MIN: f64 = MOST;
 pub(super) const VOTES_NATS_APART: f64 = CLEAR_NATS;
 /// Paths whose mean distance is at most this many points are one path. *Numeric.*
 const SAME_POINTS: usize = 2;
-/// Smallest difference of the logarithms of two speeds that is a jump: rotors of one vehicle, and a rotor in a manoeuvre, stay within a quarter.
-/// *Decision.*
-const JUMP_MIN: f64 = 0.223;
+/// Smallest difference of the logarithms of two speeds that is a jump: rotors of one vehicle, and a rotor in a manoeuvre, stay within it.
+const JUMP_MIN: f64 = DISTANCE_MAX;
 /// A comb that is slower by this factor is no voice beside a rotor: it has a line near any line of several rotors. *Decision.*
 const SLOWER_MAX: f64 = 0.25;
-/// Speeds nearer than this, as a difference of their logarithms, are one hypothesis: other rotors, or other moments, of one vehicle. *Decision.*
-pub(super) const ROTORS_APART: f64 = 0.14;
 
 /// The votes of all frames for all speeds of a rotor that makes these lines.
 pub(super) struct Search {

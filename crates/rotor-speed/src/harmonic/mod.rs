@@ -34,7 +34,7 @@ pub(crate) mod speed_map;
 pub(crate) mod speed_path;
 mod track;
 
-use crate::thresholds::{CLEAR_TIMES, HEARD_S_MIN, MESH_LINES, SERIES_LINES};
+use crate::thresholds::{CLEAR_TIMES, HEARD_S_MIN, MANY, MESH_LINES, NEARLY_ALL, SERIES_LINES};
 use block::BlockFit;
 pub(crate) use chunks::{Chunk, ChunkCutter, ChunkListener, InChunks, NoiseDensity, limits_rev_s};
 use demodulation::{Line, LinePlace, demodulated};
@@ -60,8 +60,8 @@ const SEVERAL_SHARE: f64 = 0.06;
 /// Standard deviation of the mean speed of several rotors with unequal loudness (3 dB or so among four), as a share of their standard
 /// deviation. *Decision.*
 const UNKNOWN_LOUDNESS_SHARE: f64 = 0.2;
-/// Smallest share of blocks of one hop that must be clear for the path to be right beyond doubt. *Decision.*
-const CLEAR_SHARE: f64 = 0.9;
+/// Smallest share of blocks of one hop that must be clear for the path to be right beyond doubt.
+const CLEAR_SHARE: f64 = NEARLY_ALL;
 /// Largest change of a path, in cycles of the highest line within a tick, for which its lines are not demodulated again. *Numeric.*
 const NEAR_TURNS: f64 = 0.02;
 /// Smallest information of a block that counts as heard, s²: a standard uncertainty of 10 rev/s. *Decision.*
@@ -73,8 +73,8 @@ const STEADY_TIMES: f64 = CLEAR_TIMES;
 /// Likelihood that a search over 100 000 resolution cells finds in noise; a steady block must reach this in addition. *Decision.*
 const SEARCH_LIKELIHOOD: f64 = 20.0;
 /// Smallest likelihood of the blocks of a coherent chunk, as a share of the likelihood over noise of blocks of one hop. The hum of a
-/// machine leaves a tenth. *Decision.*
-const COHERENT_SHARE: f64 = 0.4;
+/// machine leaves a tenth.
+const COHERENT_SHARE: f64 = MANY;
 
 /// Estimates the speed along stretches of sound.
 pub(crate) struct HarmonicTracer {

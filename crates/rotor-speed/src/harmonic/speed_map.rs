@@ -3,6 +3,7 @@
 use super::best_path::best_path;
 use super::frame_transform::FrameTransform;
 use super::speed_path::SpeedPoint;
+use crate::thresholds::{MANY, MOST};
 use hovertone_signal::channels::Channel;
 use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::{mean, median};
@@ -27,12 +28,12 @@ pub(crate) const STRONG_POWER_MIN: f64 = 30.0;
 const NOISE_PEAK_POWER: f64 = 8.0;
 /// Smallest power beside the path, as a share of the strongest power in the band, at which another sound is in the band. *Decision.*
 const MOST_BANDS_SHARE: f64 = 0.03;
-/// Power of the sidebands of a gear mesh (one and two turns of the shaft away), as a share of the power of the mesh. *Decision.*
-const SIDEBAND_SHARE: f64 = 0.35;
+/// Power of the sidebands of a gear mesh (one and two turns of the shaft away), as a share of the power of the mesh.
+const SIDEBAND_SHARE: f64 = MANY;
 /// Half width of the lobe of a line around the path, in resolution cells: the half lobe of a Hann frame and half a cell. *Numeric.*
 const LOBE_CELLS: f64 = 2.5;
-/// Smallest power that counts for the centroid of a frame, as a share of the highest power in the frame. *Decision.*
-const CENTROID_SHARE_MIN: f32 = 0.4;
+/// Smallest power that counts for the centroid of a frame, as a share of the highest power in the frame.
+const CENTROID_SHARE_MIN: f32 = MOST as f32;
 /// Equivalent noise bandwidth of the Hann window, in resolution cells (Harris, Proc. IEEE 66, 1978): a sine of amplitude A in a frame
 /// of N samples with the noise variance V has J = A² N / (1.5 V). *Physics.*
 pub(crate) const HANN_NOISE_CELLS: f64 = 1.5;

@@ -2,17 +2,13 @@
 
 use crate::harmonic::SAME_TIME_S;
 use crate::survey::Survey;
-use crate::thresholds::{CLEAR_DB, HELD_S};
+use crate::thresholds::{CLEAR_DB, HELD_S, NEARLY_ALL};
 use crate::tone::CombMap;
 use hovertone_analysis::{Cut, CutReason, Hover, Span};
 use hovertone_signal::statistics::median;
 
 /// Largest overshoot beyond the speed of the hover when rotors run up or down, as a share. *Decision.*
 const OVERSHOOT_SHARE: f64 = 0.15;
-/// Longest manoeuvre between two spans of hover, s. *Decision.*
-const MANOEUVRE_S_MAX: f64 = 6.0;
-/// Smallest comb score of a clear row outside the hover, as a share of the median score in the hover. *Decision.*
-const CLEAR_SHARE: f64 = 0.7;
 /// Smallest comb score of a clear row, dB: with a lower score, the best speed of a row is wrong by chance, also with a faint rotor.
 const CLEAR_DB_MIN: f64 = CLEAR_DB;
 
@@ -23,7 +19,7 @@ pub(crate) fn restless_s(hover: &Hover, survey: &Survey, map: &CombMap) -> f64 {
     let in_hover = |row: usize| hover.segments.iter().any(|segment| segment.contains(middle_s(row)));
     let rows = 0..survey.rows.len();
     let hover_db: Vec<f64> = rows.clone().filter(|&row| in_hover(row)).map(best_db).collect();
-    let clear_db = (CLEAR_SHARE * median(&hover_db).unwrap_or(f64::INFINITY)).max(CLEAR_DB_MIN);
+    let clear_db = (NEARLY_ALL * median(&hover_db).unwrap_or(f64::INFINITY)).max(CLEAR_DB_MIN);
     let is_restless = |cut: &Cut| match cut.reason {
         CutReason::OtherSpeed { .. } => cut.span.length_s() <= HELD_S,
         CutReason::Manoeuvre | CutReason::TooShort => true,
@@ -61,12 +57,7 @@ pub(super) fn name_cuts(hover: &mut Hover, hover_speed_rev_s: f64) {
             CutReason::TakeOff
         } else if is_same(span.from_s, last.to_s) && is_down {
             CutReason::Landing
-        } else if is_between
-            && has_speeds
-            && is_heard
-            && span.length_s() <= MANOEUVRE_S_MAX
-            && touches_hover(&segments, &span)
-        {
+        } else if is_between && has_speeds && is_heard && touches_hover(&segments, &span) {
             CutReason::Manoeuvre
         } else {
             continue;

@@ -1,9 +1,11 @@
 //! The levels of the lines by which a rotor is known.
 
+use crate::thresholds::NOISE_STDS_MAX;
+
 /// Standard deviation of the level of a line, in nepers. *Decision.*
 const LEVEL_STD: f64 = 0.35;
-/// Largest cost of the level of one line. *Decision.*
-const LEVEL_COST_MAX: f64 = 9.0;
+/// Largest cost of the level of one line: that of a level that is more than noise.
+const LEVEL_COST_MAX: f64 = NOISE_STDS_MAX * NOISE_STDS_MAX;
 /// Levels drift over this time: all frames within it are one observation. *Decision.*
 const LEVEL_S: f64 = 1.5;
 

@@ -9,15 +9,15 @@ use crate::harmonic::chunks::Chunk;
 use crate::harmonic::demodulation::{Line, LinePlace};
 use crate::harmonic::speed_map::{HANN_NOISE_CELLS, STRONG_POWER_MIN};
 use crate::harmonic::speed_path::SpeedPath;
-use crate::thresholds::MOST;
+use crate::thresholds::{FEW, MOST};
 use hovertone_signal::channels::TICKS_PER_HOP;
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 
 /// Two lines closer than this in a frame cannot be told apart: order · Δf · T ≥ 1.25, measured with frames under a Hann window. *Numeric.*
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
-/// A rotor of a quarter of another one's power is a faint one. *Decision.*
-const FAINT_SHARE: f64 = 0.25;
+/// A rotor of a fifth of another one's power is a faint one.
+const FAINT_SHARE: f64 = FEW;
 /// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them. *Numeric.*
 const GHOST_SHARE: f64 = 1.0 / 100.0;
 /// A line that is apart from all others in less than this share of a chunk is not heard for its speed.

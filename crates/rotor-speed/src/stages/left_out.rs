@@ -33,16 +33,15 @@ pub(crate) fn heard_instead(surveyed: &Surveyed, sample_rate_hz: f64, config: &C
 
 /// The beliefs where nothing is known, with the gears of known vehicles. `None` where no rotor is heard, or only a faint one.
 fn blind_beliefs(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<Beliefs> {
-    let blind = Config { tone: ToneConfig { band_hz: None, ..config.tone.clone() }, ..config.clone() };
-    let gear_share = DiscoveryConfig::default().gear_share;
-    let geared = geared_propellers(sample_rate_hz, &blind.tone, None, gear_share);
+    let tone = ToneConfig { band_hz: None, ..config.tone.clone() };
+    let geared = geared_propellers(sample_rate_hz, &tone, None, DiscoveryConfig::default().gear_share);
     let any = WantedRotor {
         propellers: any_propellers(sample_rate_hz).into_iter().chain(geared).collect(),
         known: KnownRotor::default(),
         may_be_slow: false,
         where_unknown: Vec::new(),
     };
-    surveyed.beliefs(&any, &blind).filter(|beliefs| !beliefs.is_faint)
+    surveyed.clear_beliefs(&any, &config.evidence)
 }
 
 fn rotor_of(hypothesis: &Hypothesis) -> Option<OtherRotor> {

@@ -3,7 +3,10 @@
 use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{Beliefs, EvidenceConfig, ExcessBuilder, Looks, RotorLines, WantedRotor, beliefs_from_looks};
+use crate::evidence::{
+    Beliefs, EvidenceConfig, ExcessBuilder, Looks, RotorLines, WantedRotor, beliefs_from_looks,
+    clear_beliefs_from_looks,
+};
 use crate::survey::{HumFinder, RowsBuilder, Survey};
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
@@ -30,6 +33,11 @@ impl Surveyed {
         // who names the tone by a band says that it is there: then only evidence against it refutes it
         let levels_nats_min = if config.tone.is_named_by_band() { 0.0 } else { config.evidence.levels_nats_min };
         beliefs_from_looks(&self.looks, wanted, &EvidenceConfig { levels_nats_min, ..config.evidence })
+    }
+
+    /// The same of a rotor that is not faint, and that no band names.
+    pub(crate) fn clear_beliefs(&self, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
+        clear_beliefs_from_looks(&self.looks, wanted, config)
     }
 
     /// Checks that the survey may hold a tone.

@@ -5,6 +5,7 @@ use super::levels::LevelRows;
 use super::reading::readings_of_tone;
 use super::series::Series;
 use crate::survey::Survey;
+use crate::thresholds::FEW;
 use crate::tone::DiscoveryConfig;
 use hovertone_analysis::{Remark, SeenHarmonic, Span, ToneFamily};
 use hovertone_signal::statistics::std;
@@ -14,8 +15,8 @@ use hovertone_vehicle::KnownRotor;
 const MAINS_HZ: [f64; 4] = [50.0, 60.0, 100.0, 120.0];
 /// How near, as a share. *Decision.*
 const MAINS_SHARE: f64 = 0.004;
-/// A family that sounds for less than this share of the time is a beep or a call. *Decision.*
-const BRIEF_SHARE: f64 = 0.25;
+/// A family that sounds for less than this share of the time is a beep or a call.
+const BRIEF_SHARE: f64 = FEW;
 
 /// A line of a series: number of the harmonic, and level over the noise in dB.
 type Line = (u32, f64);

@@ -2,7 +2,9 @@
 
 use super::comb::{GRID_STEP_SHARE, search_grid};
 use super::levels::{LevelRow, LevelRows};
-use crate::thresholds::{FLIGHT_WIDTH_SHARE, HOVER_WIDTH_SHARE, MOST, SERIES_LEVEL_DB_MAX, SERIES_LINES};
+use crate::thresholds::{
+    CLEAR_DB, FLIGHT_WIDTH_SHARE, HOVER_WIDTH_SHARE, MOST, SEARCHED_NOISE_STDS_MAX, SERIES_LEVEL_DB_MAX, SERIES_LINES,
+};
 use crate::tone::DiscoveryConfig;
 use hovertone_signal::statistics::{mean_by_square, median};
 
@@ -18,14 +20,14 @@ const POOL_HALF_WIDTH_SHARE: f64 = HOVER_WIDTH_SHARE / 2.0;
 const PRESENT_SCORE_SHARE: f64 = MOST;
 /// Where the peak of a harmonic is looked for beside its expected place, as a share. *Numeric.*
 const REFINE_HALF_WIDTH_SHARE: f64 = HOVER_WIDTH_SHARE / 2.0;
-/// Peaks lower than this do not take part in the refinement of a fundamental. *Decision.*
-const REFINE_LEVEL_DB_MIN: f64 = 6.0;
+/// Peaks lower than this do not take part in the refinement of a fundamental.
+const REFINE_LEVEL_DB_MIN: f64 = CLEAR_DB;
 /// Lines of a series that are listed at most. *Numeric.*
 const LINES_MAX: u32 = 40;
 /// A line may lie this many bins beside its place. *Numeric.*
 const LINE_BINS: isize = 1;
-/// A line stands out of the noise by so many standard deviations: the highest of its places does by 1.5 on average. *Decision.*
-const LINE_STDS: f64 = 4.5;
+/// A line stands out of the noise by so many standard deviations: the highest of its places does by 1.5 on average.
+const LINE_STDS: f64 = SEARCHED_NOISE_STDS_MAX;
 /// Fundamentals end at this share of the highest frequency: the last bins have no floor above them. *Numeric.*
 const HZ_MAX_SHARE: f64 = 0.9;
 /// Half width of what is taken away around each line, as a share. *Decision.*
