@@ -50,8 +50,8 @@ struct HeardVoice {
     without: Looks,
 }
 
-/// The same of a rotor that short frames hear: in the sound without a voice, where one sounds. The rotor goes on while a voice sounds, so that it keeps most of its votes: a
-/// motor that jumps from speed to speed leaves a small rest of its lines, which is no rotor.
+/// The same of a rotor that short frames hear: in the sound without a voice, where one sounds. The rotor goes on while a voice sounds, so that it
+/// keeps most of its votes: a motor that jumps from speed to speed leaves a small rest of its lines, which is no rotor.
 pub(crate) fn clear_beliefs_from_looks(
     looks: &Looks,
     wanted: &WantedRotor,

@@ -4,8 +4,8 @@ use crate::thresholds::NOISE_STDS_MAX;
 
 /// Standard deviation of the level of a line, in nepers. *Decision.*
 const LEVEL_STD: f64 = 0.35;
-/// Largest cost of the level of one line: that of a level that is more than noise.
-const LEVEL_COST_MAX: f64 = NOISE_STDS_MAX * NOISE_STDS_MAX;
+/// Distance of a level from the wanted one beyond which it costs no more, in standard deviations.
+const LEVEL_STDS_MAX: f64 = NOISE_STDS_MAX;
 /// Levels drift over this time: all frames within it are one observation. *Decision.*
 const LEVEL_S: f64 = 1.5;
 
@@ -125,7 +125,7 @@ pub(super) fn level_cost(levels: &Levels, expected: &Levels, frame_s: f64) -> f6
     let costs = levels
         .iter()
         .zip(expected)
-        .filter_map(|(level, wanted)| Some((((*level)? - (*wanted)?) / LEVEL_STD).powi(2).min(LEVEL_COST_MAX)));
+        .filter_map(|(level, wanted)| Some((((*level)? - (*wanted)?) / LEVEL_STD).powi(2).min(LEVEL_STDS_MAX.powi(2))));
     frame_s / LEVEL_S * costs.sum::<f64>()
 }
 
