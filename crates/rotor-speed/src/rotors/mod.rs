@@ -35,7 +35,7 @@ use crate::harmonic::{
     Chunk, ChunkCutter, ChunkListener, ChunkPlace, HarmonicBlock, HarmonicTrack, InChunks, NoiseDensity, block_at,
     limits_rev_s,
 };
-use crate::thresholds::{FEW, MOST};
+use crate::thresholds::FEW;
 use atoms::{ChannelAtoms, atoms_of};
 use chunk::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_chunk, rough_tracks};
 use histories::Histories;
@@ -48,8 +48,8 @@ use pace::Pace;
 use spectra::FRAME_TICKS;
 use std::ops::RangeInclusive;
 
-/// Lines that keep less of their phase than this are wider than frames resolve.
-const PHASE_KEPT_MIN: f64 = MOST;
+/// Lines that keep less of their phase than this are wider than frames resolve. *Decision.*
+const PHASE_KEPT_MIN: f64 = 0.6;
 /// Factor by which two rotors must then be further apart than else: any path through a wide line is a resolution or two from any other. *Decision.*
 const WIDE_LINE_FACTOR: f64 = 4.0;
 /// Largest share of the time in which they may be closer.

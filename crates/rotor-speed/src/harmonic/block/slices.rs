@@ -250,7 +250,17 @@ fn slice_times_s(ticks: usize, per_slice: usize, tick_s: f64) -> Vec<f64> {
 
 /// Sums of `per_sum` values each.
 fn sum_chunks(values: &[Complex<f64>], per_sum: usize, sums: &mut [Complex<f64>]) {
-    sums.iter_mut().zip(values.chunks(per_sum)).for_each(|(sum, values)| *sum = values.iter().sum());
+    sums.iter_mut().zip(values.chunks(per_sum)).for_each(|(sum, values)| *sum = sum_of(values));
+}
+
+/// The sum of some values, as four sums at once: each addition waits for the one before it.
+fn sum_of(values: &[Complex<f64>]) -> Complex<f64> {
+    let (fours, rest) = values.as_chunks::<4>();
+    let mut sums = [Complex::default(); 4];
+    for four in fours {
+        sums.iter_mut().zip(four).for_each(|(sum, value)| *sum += value);
+    }
+    sums.iter().chain(rest).sum()
 }
 
 /// Sums of a half hop each: their length is known before, so that there is no inner loop.
