@@ -6,12 +6,14 @@ use super::level_model::{LevelModel, RotorLevels};
 use super::levels::levels_of_lines;
 use super::prior::odds_nats;
 use super::rotor_lines::RotorLines;
-use super::search::Multiple;
-use crate::thresholds::HOVER_WIDTH_SHARE;
+use super::search::{Multiple, VOTES_NATS_APART, is_family};
+use crate::thresholds::{HOVER_WIDTH_SHARE, NEARLY_ALL};
 use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
 
+/// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats.
+const OTHER_VOTES_SHARE_MIN: f64 = NEARLY_ALL;
 /// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
 /// So a slower rotor is heard only where the diameter, the vehicle or the band says that it may be there. *Decision.*
 pub(super) const RESOLVED_REV_S: f64 = 30.0;
@@ -124,10 +126,14 @@ fn most_frequent_rev_s(speeds_rev_s: &[f64]) -> Option<f64> {
 
 /// The best path of each speed, most probable first. Paths of rotors of one vehicle are one hypothesis.
 pub(super) fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
-    // octaves are compared along one path: the one with the most nats
+    // octaves are compared along one path; another path that is no family of it explains the frames as well, or it is none
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
-    let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b))).map(|path| path.path);
-    paths.sort_by(|a, b| (Some(b.path) == best).cmp(&(Some(a.path) == best)).then(b.nats.total_cmp(&a.nats)));
+    let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
+    let Some(&Hypothesis { path: best, speed_rev_s, votes_nats, .. }) = best else { return paths };
+    let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
+    let is_family = |path: &Hypothesis| path.path == best || is_family(path.speed_rev_s, speed_rev_s);
+    paths.retain(|path| is_family(path) || path.votes_nats >= least_nats);
+    paths.sort_by(|a, b| (b.path == best).cmp(&(a.path == best)).then(b.nats.total_cmp(&a.nats)));
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     for path in paths {
         if !hypotheses.iter().any(|other| other.is_of_same_vehicle(path.speed_rev_s)) {
