@@ -214,10 +214,10 @@ fn a_vehicle_that_the_results_contradict_is_named_and_no_mass_that_nobody_gave()
 fn a_speed_at_which_the_vehicle_cannot_hover_makes_no_mass_ambiguous() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("hover.wav");
-    let settings = steady_bench("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0);
+    let settings = steady_bench("crazyflie", RotorSpeed::from_rev_s(80.0), 10.0);
     write_hover(&sound, settings);
-    // 500 g hover at 95 rev/s
-    let weigh = ["weigh", text(&sound), "--blades", "2", "--rotors", "1", "--constant-n-s2", "1.3762e-5"];
+    // 500 g hover at 80 rev/s
+    let weigh = ["weigh", text(&sound), "--blades", "2", "--rotors", "1", "--constant-n-s2", "1.9413e-5"];
     let open = hovertone(&weigh).ends_with(3);
     assert!(open.stderr.contains("ambiguous"), "{}", open.stderr);
     let run = hovertone(&[&weigh[..], &["--mass-kg", "0.45"]].concat()).ends_with(0);
