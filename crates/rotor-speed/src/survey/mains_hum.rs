@@ -1,7 +1,7 @@
 //! Fine rows → mains hum: lines of constant frequency at multiples of 50 or 60 Hz.
 
 use crate::survey::{Row, Rows};
-use crate::thresholds::{CLEAR_DB, MOST, NEARLY_ALL};
+use crate::thresholds::{CLEAR_DB, NEARLY_ALL};
 use hovertone_signal::SteadyLines;
 use hovertone_signal::peak::peak_offset_bins;
 use hovertone_signal::spectrogram::whitened_db;
@@ -12,6 +12,8 @@ const GRIDS_HZ: [f64; 2] = [50.0, 60.0];
 /// Largest deviation of a grid from its frequency, as a share (ENTSO-E: ±0.05 Hz nearly always). The clock of a recorder deviates by a
 /// tenth of it. *Decision.*
 const GRID_SHARE: f64 = 0.001;
+/// Largest deviation of the frequency from all lines together, with the clock of the recorder, as a share. *Decision.*
+const GRID_SHARE_MAX: f64 = 0.0012;
 /// Error of an interpolated peak, in bins. *Numeric.*
 const PEAK_ERROR_BINS: f64 = 0.08;
 /// Twice the standard deviation of a peak in one row, in bins, where noise and line are as loud: of a Hann window (Rife and Vincent 1970). *Physics.*
@@ -29,6 +31,13 @@ const ROUNDING_POWER: f64 = 1.55e-10;
 /// Smallest share of rows in which a line of hum is in its place: noise moves weak lines, and a rotor of varying speed leaves the place
 /// soon.
 const ROWS_IN_PLACE_MIN: f64 = NEARLY_ALL;
+/// Smallest share of lines that are heard, among all multiples up to the highest one heard, or among the odd or the even multiples.
+/// *Decision.*
+const HEARD_SHARE_MIN: f64 = 0.65;
+/// Largest distance of the strongest of the first lines below the strongest line, dB: hum is strong in its first multiples. *Decision.*
+const LOW_MULTIPLES_DB: f64 = 15.0;
+/// Number of first lines of which one must be strong. *Decision.*
+const LOW_MULTIPLES: usize = 3;
 /// Number of multiples whose presence is examined. *Decision.*
 const PATTERN_MULTIPLES: usize = 8;
 
@@ -50,8 +59,8 @@ struct FineSpectrum<'a> {
 
 /// The mains hum of a recording, from its low frequencies up to `hz_max`. `None` where there is none.
 ///
-/// Hum is a series of lines that stay within 0.1 % of multiples of 50 or 60 Hz. The lowest of them is heard, and so are most of the others, of all
-/// multiples or of the odd or the even ones. So a rotor at 180 Hz is no hum, because it has no lines at 60 and 120 Hz. The multiples of a rotor move
+/// Hum is a series of lines that stay within 0.1 % of multiples of 50 or 60 Hz, with a strong line among the first three, and at most
+/// about a third of the lines missing. So a rotor at 180 Hz is no hum, because it has no lines at 60 and 120 Hz. The multiples of a rotor move
 /// together, by more than a grid does: the high ones show it.
 pub(crate) fn mains_hum(fine: &Rows, hz_max: f64) -> Option<SteadyLines> {
     let power = fine.mean_power()?;
@@ -68,19 +77,24 @@ fn hum_of_grid(spectrum: &FineSpectrum<'_>, grid_hz: f64, hz_max: f64) -> Option
     let bin_hz = rows.bin_hz;
     let multiples = (hz_max / grid_hz) as usize;
     let lines: Vec<Option<StillLine>> = (1..=multiples).map(|k| still_line(spectrum, k as f64 * grid_hz)).collect();
+    let strongest = |lines: &[Option<StillLine>]| lines.iter().flatten().map(|line| line.power).fold(0.0, f64::max);
+    let low = strongest(&lines[..lines.len().min(LOW_MULTIPLES)]);
+    if low <= 0.0 || low < strongest(&lines) * 10f64.powf(-LOW_MULTIPLES_DB / 10.0) {
+        return None;
+    }
     let pattern = &lines[..lines.len().min(PATTERN_MULTIPLES)];
     let highest = pattern.iter().rposition(Option::is_some)? + 1;
     let is_heard = |first: usize, step: usize| {
         let expected: Vec<bool> = (first..=highest).step_by(step).map(|k| pattern[k - 1].is_some()).collect();
         let heard = expected.iter().filter(|&&is_heard| is_heard).count();
         // the lowest line must be heard; otherwise the multiples of a rotor would qualify
-        expected.first() == Some(&true) && heard as f64 >= MOST * expected.len() as f64
+        expected.first() == Some(&true) && heard as f64 >= HEARD_SHARE_MIN * expected.len() as f64
     };
     if !(is_heard(1, 1) || is_heard(1, 2) || is_heard(2, 2)) {
         return None;
     }
     // all lines together give a more precise frequency than one line: a rotor at 60.17 rev/s is no hum
-    let mains_hz = mains_hz_of(&lines).filter(|mains_hz| (mains_hz / grid_hz - 1.0).abs() <= GRID_SHARE)?;
+    let mains_hz = mains_hz_of(&lines).filter(|mains_hz| (mains_hz / grid_hz - 1.0).abs() <= GRID_SHARE_MAX)?;
     if !stands_still(rows, mains_hz) {
         return None;
     }
