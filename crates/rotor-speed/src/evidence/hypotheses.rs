@@ -131,8 +131,8 @@ pub(super) fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
     let Some(&Hypothesis { path: best, speed_rev_s, votes_nats, .. }) = best else { return paths };
     let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
-    let is_family = |path: &Hypothesis| path.path == best || is_family(path.speed_rev_s, speed_rev_s);
-    paths.retain(|path| is_family(path) || path.votes_nats >= least_nats);
+    let is_of_best = |path: &Hypothesis| path.path == best || is_family(path.speed_rev_s, speed_rev_s);
+    paths.retain(|path| is_of_best(path) || path.votes_nats >= least_nats);
     paths.sort_by(|a, b| (b.path == best).cmp(&(a.path == best)).then(b.nats.total_cmp(&a.nats)));
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     for path in paths {
